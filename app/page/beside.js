@@ -29,14 +29,14 @@ export class Beside {
       this.#makeRoom(null);
       this.show();
     });
-    const { edit, name, radius, unit, heading, places, use, street } = this.row;
+    const { edit, name, radius, unit, angle, places, use, street } = this.row;
     this.copy = textButton(phrase("Copy"), () => editor.duplicate());
     const remove = textButton(phrase("Remove"), () => editor.remove());
     this.aligns = make("div", {}, ...Object.entries(ALIGNS).map(([how, words]) => textButton(words, () => editor.align(how), { "data-align": how })));
     const close = button({ textContent: "✓", "data-label": "Leave this thing (Escape)", "aria-label": say("Leave this thing (Escape)") }, () => editor.leave());
     // Its kind is known; the list has the button that goes on drawing it.
     edit.remove();
-    this.own = make("div", {}, make("label", { className: "radius" }, "r ", radius, unit), places, heading, use, street);
+    this.own = make("div", {}, make("label", { className: "radius" }, "r ", radius, unit), places, use, angle, street);
     this.title = make("b");
     box.append(make("div", {}, name, this.title, close), this.own, this.gap, this.size, this.aligns, make("div", {}, this.copy, remove));
   }

@@ -65,6 +65,12 @@ export class Change {
     if (before) this.#say(report.verdict, report.verdict === "passes" ? differences(before, report) : report.failures.slice(0, 1).map(({ sentence }) => sentence));
   }
 
+  /** There is no dance any more with which the next one could be compared. */
+  forget() {
+    this.#newest = null;
+    this.clear();
+  }
+
   /** Another dance than a drawn one, or another language. */
   clear() {
     this.line.hidden = true;

@@ -35,9 +35,9 @@ export function limitsIn(paths) {
 /** A typed number, also with a decimal comma, the only one on some phones. */
 const typed = (text) => text.trim().replace(/^([-+]?\d*),(\d+)$/, "$1.$2");
 /** A number in another unit, without the noise of binary fractions; other texts stay unchanged. */
-const times = (text, factor) => (factor !== 1 && text !== "" && Number.isFinite(Number(text)) ? String(Number((Number(text) * factor).toPrecision(12))) : text);
+export const times = (text, factor) => (factor !== 1 && text !== "" && Number.isFinite(Number(text)) ? String(Number((Number(text) * factor).toPrecision(12))) : text);
 /** Factor from the service's unit to the shown unit. */
-const FACTORS = Object.fromEntries(FIELDS.map(({ name, centimetres }) => [name, centimetres ? 100 : 1]));
+export const FACTORS = Object.fromEntries(FIELDS.map(({ name, centimetres }) => [name, centimetres ? 100 : 1]));
 
 export class Controls {
   #rows = new Map();

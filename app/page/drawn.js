@@ -57,7 +57,7 @@ export class Drawn {
     const files = new Files(state, this.steps, service, questions, several);
     this.photo = new Photo(state, this.editor, () => this.#photographed());
     this.form = new RouteForm($("#route"), state, this.steps, this.editor, files, this.photo);
-    this.beside = new Beside($("#beside"), dance, this.editor, this.form, () => questions.course?.gaps);
+    this.beside = new Beside($("#beside"), dance, this.editor, this.form, () => (this.#isEmpty ? null : questions.course?.gaps));
     addKits(this.editor);
     this.change = new Change($("#stage"));
     this.figure = new Figure($("#stage"), this.editor, () => this.#free());
@@ -156,7 +156,8 @@ export class Drawn {
     this.beside.show();
     this.photo.show();
     this.figure.show();
-    if (!drawn || this.#isEmpty || !this.editor.active) this.change.clear();
+    if (!drawn || this.#isEmpty) this.change.forget();
+    else if (!this.editor.active) this.change.clear();
     const empty = drawn && this.#isEmpty;
     $("main").classList.toggle("empty", empty);
     hide($("#invite"), !empty || points.length > 0 || this.editor.active || yardOf(drawing).length > 0 || this.photo.corners.length > 0);

@@ -648,7 +648,10 @@ export class Editor {
     if (kind === "gate" && !yardOf(drawing).length) return;
     const point = kind === "gate" ? onBorder(yardOf(drawing), wanted).point : wanted;
     const radius = { circle: TREE_RADIUS, wall: WALL_RADIUS, lane: LANE_RADIUS }[kind];
-    const thing = { kind, name: freeName(drawing.things, say(THINGS[kind])), points: [], ...(radius && { radius }) };
+    // Beside a way in, a second gate is the way out.
+    const uses = kind === "gate" ? drawing.things.flatMap((one) => (one.kind === "gate" ? [one.use] : [])) : [];
+    const use = uses.length === 1 && { in: "out", out: "in" }[uses[0]];
+    const thing = { kind, name: freeName(drawing.things, say(THINGS[kind])), points: [], ...(radius && { radius }), ...(use && { use }) };
     [this.item, this.others] = [drawing.things.length, []];
     this.#isDrawing = true;
     this.steps.take(withPoints({ ...drawing, things: [...drawing.things, thing] }, this.item, [point]));

@@ -3,6 +3,7 @@
 import { Problem, Superseded, TOO_LONG } from "./api.js";
 import { cardPicture, cardTitles, cardWords } from "./cards.js";
 import { headingOf, withPoints } from "./changes.js";
+import { FACTORS, times } from "./controls.js";
 import { Corners } from "./corners.js";
 import { EMPTY, THINGS, drawingOf, freeName, ownOf, venueOf, yardOf } from "./drawing.js";
 import { $, bearer, button, hide, make, numberIn, textButton } from "./elements.js";
@@ -36,7 +37,7 @@ const [WIDTH, HEIGHT, MOST] = [30, 40, 10_000];
 /** Difference of width and height of a round square, from rounding [m]. */
 const SAME = 1e-3;
 /** Numbers of the dragon that are asked for beside the square, and what says how long it may dance. */
-const [DRAGON, WHEN] = [["benches", "body_length", "head_length"], ["ends", "laps", "begin_clock"]];
+const [DRAGON, WHEN] = [["benches", "body_length", "head_length", "head_speed", "stray"], ["ends", "laps", "begin_clock"]];
 /** Number of dances that are proposed, and time between two looks at the search [ms]. */
 const [COUNT, SECOND] = [3, 1_000];
 /** What a good dance has much of. @type {Phrases} */
@@ -103,7 +104,8 @@ export class Propose {
     const line = (...parts) => make("p", { className: "line" }, ...parts);
     const words = (text) => make("span", { "data-text": text });
     const unit = () => make("span", { textContent: "m" });
-    this.sizes = [field(phrase("Width of the square")), field(phrase("Length of the square")), field(phrase("Diameter of the square"))];
+    const size = (text, wide, high) => make("span", { className: "size" }, ...(text ? [words(text), " "] : []), wide, " × ", high, " m");
+    this.sizes = [field(phrase("Width of the square"), { id: "place-width" }), field(phrase("Length of the square"), { id: "place-height" }), field(phrase("Diameter of the square"), { id: "place-diameter" })];
     const [width, height, diameter] = this.sizes;
     this.notch = [field(phrase("Width of what is cut out"), { id: "notch-width", value: NOTCH[0] }), field(phrase("Length of what is cut out"), { id: "notch-height", value: NOTCH[1] })];
     this.shape = make("select", { id: "place-shape", "data-label": "Shape of the square", onchange: () => this.show() }, ...Object.entries(SHAPES).map(([value, { name }]) => make("option", { value, "data-text": name })));
@@ -122,8 +124,7 @@ export class Propose {
     const tools = Object.entries(TOOLS).map(([tool, words]) => textButton(words, () => this.#tool(tool), { "data-add": tool }));
     tools.push(textButton("More things …", () => {}, { "data-add": "kits", popoverTargetElement: $("#kits") }));
     box.append(
-      line(words(phrase("Our square is")), this.shape, make("span", { className: "size" }, width, " × ", height, " m"), take("take-rectangle", phrase("Draw it: the square by its size"), () => this.#drawShape())),
-      (this.notchLine = line(words(phrase("of which this is cut out:")), make("span", { className: "size" }, this.notch[0], " × ", this.notch[1], " m"))),
+      line(words(phrase("Our square is")), this.shape, size("", width, height), (this.cut = size(phrase("without"), ...this.notch)), take("take-rectangle", phrase("Draw it: the square by its size"), () => this.#drawShape())),
       line(words(phrase("or a circle, across")), diameter, unit(), take("take-circle", phrase("Draw it: the circle"), () => this.#draw(circle, [diameter]))),
       (this.wrong = make("p", { className: "error", id: "place-wrong", role: "alert" })),
       (this.help = make("p", { className: "hint", id: "add-help", role: "status" })),
@@ -131,6 +132,7 @@ export class Propose {
       (this.done = textButton("Done", () => this.editor.turn(false), { id: "place-done" })),
       this.corners.box,
       (this.dragonLine = line(words(phrase("We have")), this.dragon[0], words(phrase("benches of")), this.dragon[1], unit(), words(phrase("and a head of")), this.dragon[2], unit())),
+      line(words(phrase("It goes")), this.dragon[3], make("span", { textContent: "m/s" }), words(phrase("people stray")), this.dragon[4], make("span", { textContent: "cm" })),
       (this.start = make("div")),
       line(make("label", { htmlFor: "ends", "data-text": "It must end by" }), this.ends),
       line(make("label", { htmlFor: "laps", "data-text": "or go around" }), this.laps, words(phrase("times"))),
@@ -142,12 +144,13 @@ export class Propose {
       this.cardsOld,
       this.cards,
     );
-    for (const [one, id] of [[width, "place-width"], [height, "place-height"], [diameter, "place-diameter"]]) {
-      one.id = id;
+    for (const one of [...this.sizes, ...this.notch]) {
       one.addEventListener("input", () => (one.typed = true));
       one.addEventListener("keydown", ({ key }) => key === "Enter" && (one === diameter ? this.#draw(circle, [diameter]) : this.#drawShape()));
     }
-    state.listen((names) => [...DRAGON, ...WHEN, "csv", "margin", "stray", "hole", "pin", "drawing", "path", "door"].some((name) => names.has(name)) && this.show());
+    // Where the dragon is typed in, a phone has no room for the tools and for the numbers of a thing.
+    box.addEventListener("focusin", ({ target }) => editor.active && this.dragonLine.compareDocumentPosition(target) & (Node.DOCUMENT_POSITION_FOLLOWING | Node.DOCUMENT_POSITION_CONTAINED_BY) && editor.turn(false));
+    state.listen((names) => [...DRAGON, ...WHEN, "csv", "margin", "hole", "pin", "drawing", "path", "door"].some((name) => names.has(name)) && this.show());
   }
 
   get #drawing() {
@@ -161,7 +164,7 @@ export class Propose {
     const gates = drawing.things.filter(({ kind }) => kind === "gate").map((gate) => ({ point: gate.points[0], ...ownOf(gate), heading: headingOf(this.#drawing, gate) }));
     const { dragon } = this.questions.body({}, { numbers, extras, ...request });
     const { seconds, laps } = this.#howLong;
-    const limits = { margin: numbers.margin, stray: strayOf(numbers), ...(drawing.limit && { speed_limit: drawing.limit }), ...(seconds && { duration_limit: seconds }), ...(laps && { laps }) };
+    const limits = { head_speed: numbers.head_speed, margin: numbers.margin, stray: strayOf(numbers), ...(drawing.limit && { speed_limit: drawing.limit }), ...(seconds && { duration_limit: seconds }), ...(laps && { laps }) };
     return { venue: venueOf(drawing), dragon, gates, ...limits, objective: this.objective.value, count: COUNT };
   }
 
@@ -179,8 +182,7 @@ export class Propose {
   }
 
   #setNumber(name, target) {
-    const number = numberIn(target.value);
-    this.state.set({ [name]: String(number) });
+    this.state.set({ [name]: times(String(numberIn(target.value)), 1 / FACTORS[name]) });
   }
 
   /** Draw the square of the chosen shape. */
@@ -398,7 +400,7 @@ export class Propose {
     writeTexts();
     if (!isRoute) return;
     this.#showSizes(yardOf(drawing));
-    hide(this.notchLine, this.shape.value === "rectangle");
+    hide(this.cut, this.shape.value === "rectangle");
     hide(this.wrong, !this.refusal);
     this.wrong.textContent = this.refusal?.() ?? "";
     this.help.textContent = this.editor.active ? this.editor.help : say("What is in it? Choose, then tap the picture.");
@@ -415,7 +417,7 @@ export class Propose {
       one.setAttribute("aria-invalid", one === by);
       if (document.activeElement !== one) one.value = this.state.get(one.id);
     }
-    for (const [k, name] of DRAGON.entries()) if (document.activeElement !== this.dragon[k]) this.dragon[k].value = this.state.get(name);
+    for (const [k, name] of DRAGON.entries()) if (document.activeElement !== this.dragon[k]) this.dragon[k].value = times(this.state.get(name), FACTORS[name]);
     hide(this.stop, !this.#search);
     this.ask.disabled = Boolean(this.#search);
     const isOld = this.#isOld;

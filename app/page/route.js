@@ -198,7 +198,7 @@ export class RouteForm {
     put(row.heading, heading === null || heading === undefined ? "" : Number((heading / DEGREE).toFixed(1)));
     if (row.heading.placeholder !== say("straight")) row.heading.placeholder = say("straight");
     for (const part of [row.radius, row.unit]) hide(part, radius === undefined);
-    for (const part of [row.heading, row.use, row.street]) hide(part, kind !== "gate");
+    for (const part of [row.angle, row.use, row.street]) hide(part, kind !== "gate");
     row.use.value = thing.use ?? "";
     row.sizes.forEach((field, axis) => {
       put(field, thing[STREET[axis]] ?? "");
@@ -258,6 +258,7 @@ export class RouteForm {
     row.use.append(...Object.entries(USES).map(([value, words]) => make("option", { value, "data-text": words, textContent: say(words) })));
     const street = make("span", { className: "street" }, make("span", { "data-text": "street", textContent: say("street") }), " ", row.sizes[0], " × ", row.sizes[1], unitOf("m"));
     const places = make("span", { className: "places" }, "x ", row.at[0], " y ", row.at[1], unitOf("m"));
-    return { ...row, places, street, box: make("li", {}, row.edit, row.name, row.radius, row.unit, row.heading, row.remove, row.use, street) };
+    const angle = make("span", { className: "angle" }, "∠ ", row.heading, unitOf("°"));
+    return { ...row, places, street, angle, box: make("li", {}, row.edit, row.name, row.radius, row.unit, angle, row.remove, row.use, street) };
   }
 }

@@ -21,7 +21,7 @@ from core.dragon import BENCHES_MAX
 from core.language import say
 from core.proposal.gates import GATES_MAX, STREETS
 from core.proposal.propose import COUNT_MOST, DURATIONS
-from core.proposal.search import LAPS_MOST
+from core.proposal.search import HEAD_SPEED, LAPS_MOST
 
 # Time for a village square with gates [s], measured 2026-11-27.
 SECONDS = 6.0
@@ -88,6 +88,9 @@ class ProposalsRequest(VenueFields, DragonFields, strict=True):
         None,
         ge=DURATIONS[0],
         le=DURATIONS[1],
+    )
+    head_speed: float = measure(
+        "m/s", "Speed of the head, or less where the speed limit asks for it", HEAD_SPEED, ge=1e-3, le=20
     )
     count: Whole = Field(3, ge=1, le=COUNT_MOST, description="Number of proposals")
 
@@ -199,7 +202,8 @@ def _proposed(request: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, 
         raise core.InvalidValue("venue", "must be given: a dance is proposed for a square")
     gates = [gate.to_gate() for gate in request.gates]
     limits: dict[str, Any] = {"stray": request.stray, "margin": request.margin, "speed_limit": request.speed_limit}
-    wish: dict[str, Any] = {name: getattr(request, name) for name in ("objective", "count", "laps", "duration_limit")}
+    wishes = ("objective", "count", "laps", "duration_limit", "head_speed")
+    wish: dict[str, Any] = {name: getattr(request, name) for name in wishes}
     result = core.propose(
         place.venue,
         dragon,

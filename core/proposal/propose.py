@@ -9,7 +9,7 @@ from typing import Any, TypedDict, Unpack
 import numpy as np
 
 from core.contact.search import MARGIN_MAX
-from core.dance import Dance
+from core.dance import Dance, checked_head_speed
 from core.dragon import Dragon, Stray, checked_stray
 from core.errors import (
     InvalidValue,
@@ -29,7 +29,7 @@ from core.proposal.answer import Objective, Proposal, Proposals, Reason, ReasonK
 from core.proposal.figures import CLOSED, Figure
 from core.proposal.free_ground import FreeGround
 from core.proposal.gates import Gate, checked_gates, ways_through
-from core.proposal.search import LAPS_MOST, Rated, Search, Wish
+from core.proposal.search import HEAD_SPEED, LAPS_MOST, Rated, Search, Wish
 from core.sampling import bisect
 from core.values import Floats, Progress, unheard
 from core.venue import Venue
@@ -52,7 +52,7 @@ AREA_SPARE = 1e-9
 
 class Wishes(TypedDict, total=False):
     """The figures to try; what a dance must keep, as for check(): stray, margin [m], speed_limit [m/s]; the best; how
-    often around and how long [s]: laps, duration_limit."""
+    often around, how long [s] and how fast [m/s]: laps, duration_limit, head_speed."""
 
     figures: Sequence[str] | None
     stray: float | Stray
@@ -61,6 +61,7 @@ class Wishes(TypedDict, total=False):
     objective: str
     laps: int | None
     duration_limit: float | None
+    head_speed: float
 
 
 @question_about("venue", Venue, "no dance was found")
@@ -85,6 +86,7 @@ def propose(
     laps: times around a ring or an eight, once the whole dragon stands on it or has entered by its gate; no other
         figures are tried then. By default twice around a ring and once around an eight, with gates once
     duration_limit: longest time of a dance [s], none by default; rings and eights go around as often as it lasts
+    head_speed: 1 m/s by default, or less where the speed limit asks for it
     count: of proposals
     on_proposal: called with every proposal as soon as it is certified, in the order of the search
     progress: called with the share of the figures that were tried, 0 to 1; a search for further dances of them, or for
@@ -134,7 +136,8 @@ def _wish(dragon: Dragon, wishes: Wishes) -> Wish:
         laps = checked_count("laps", laps, 1, LAPS_MOST)
     if limit is not None:
         limit = checked_number("duration_limit", limit, "s", *DURATIONS)
-    return Wish(stray, margin, None if speed is None else checked_limit(speed), objective, laps, limit)
+    head_speed = checked_head_speed(wishes.get("head_speed", HEAD_SPEED))
+    return Wish(stray, margin, None if speed is None else checked_limit(speed), objective, laps, limit, head_speed)
 
 
 def _figures(figures: Sequence[str] | None, gates: Sequence[Gate], *, closed: bool) -> list[Figure]:

@@ -37,7 +37,7 @@ from core.tolerance.tolerance import tolerance
 from core.values import Progress, unheard
 from core.venue import Venue
 
-# Head speed of a dance without a speed limit [m/s].
+# Head speed of a dance that is wished neither faster nor slower [m/s].
 HEAD_SPEED = 1.0
 # Room on each side of a street, beside the benches, and where the border of the square is too narrow for it [m].
 STREET_ROOM, STREET_LEAST = 1.0, 0.02
@@ -77,6 +77,7 @@ class Wish:
     stray, margin: [m]; speed_limit: of every handle [m/s], None for none
     laps: times around a closed figure, None for the usual ones
     duration_limit: of a dance, in which closed figures are danced as often as they can [s], None for none
+    head_speed: of a dance that the speed limit does not slow down [m/s]
     """
 
     stray: float
@@ -85,6 +86,7 @@ class Wish:
     objective: Objective
     laps: int | None = None
     duration_limit: float | None = None
+    head_speed: float = HEAD_SPEED
 
     @property
     def limits(self) -> dict[str, Any]:
@@ -151,7 +153,7 @@ class Search:
         laid = [one for design in self.designs(figure) if (one := self.rate(design)) is not None]
         every = list[Rated]()
         for one in laid:
-            (self.too_long if self.further(one, HEAD_SPEED) is None else every).append(one)
+            (self.too_long if self.further(one, self.wish.head_speed) is None else every).append(one)
         return sorted(every, key=lambda one: -round(self.value(one.rating), 6))
 
     def designs(self, figure: Figure) -> Iterator[Design]:
@@ -243,22 +245,23 @@ class Search:
                         return best
                     left -= 1
                     one = self.rate(move(best.design))
-                    if one is None or self.further(one, HEAD_SPEED) is None:
+                    if one is None or self.further(one, self.wish.head_speed) is None:
                         continue
                     if self.value(one.rating) > self.value(best.rating) + SAME:
                         best, better = one, True
         return best
 
     def dance_on(self, route: Route) -> Dance:
-        """The dance on a route, as fast as the speed limit allows, at most with HEAD_SPEED."""
-        dance = Dance(self.dragon, route, HEAD_SPEED)
+        """The dance on a route, as fast as the speed limit allows, at most with the speed that is wished."""
+        wished = self.wish.head_speed
+        dance = Dance(self.dragon, route, wished)
         limit = self.wish.speed_limit
         if limit is None:
             return dance
         most = maximum_head_speed(dance, limit, start=0.0, budget=self.budget).head_speed_bracket[0]
         # Down to the next cm/s, or by a thousandth where that would stop a very slow dance.
-        speed = HEAD_SPEED if most is None else min(HEAD_SPEED, math.floor(most * 100.0) / 100.0 or 0.999 * most)
-        return dance if speed == HEAD_SPEED else Dance(self.dragon, route, speed)
+        speed = wished if most is None else min(wished, math.floor(most * 100.0) / 100.0 or 0.999 * most)
+        return dance if speed == wished else Dance(self.dragon, route, speed)
 
     def further(self, one: Rated, speed: float) -> int | None:
         """Times around its figure by which a dance is to be longer; None if the fewest already take too long.

@@ -117,13 +117,17 @@ def _gates_lie_on_the_border_and_the_dance_begins_in_their_streets(person):
     person.presses("[data-add=gate]").sees({"#add-help": "a straight street of about"})
     person.sees({"#draw-help": "Tap the border", "[data-add=gate]": False})
     tap_at(person, -11, 1)
+    person.chooses({"#beside select": "in"})
     tap_at(person, 11, -2)
-    person.presses("#place-done").settles().sees({"[data-add=gate]": True})
+    # Who types how fast it goes needs neither the tools nor the numbers of the gate.
+    person.types({"#place [data-label='Head speed']": "1.2"}).settles()
+    person.sees({"[data-add=gate]": True, "#beside": False})
     with person.page.expect_request("**/proposals") as sent:
         person.presses("#propose")
     body = sent.value.post_data_json
     assert [gate["heading"] for gate in body["gates"]] == pytest.approx([0.0, math.pi], abs=1e-3)
-    assert [gate["point"][0] for gate in body["gates"]] == [-12.0, 12.0]
+    assert [(gate["point"][0], gate["use"]) for gate in body["gates"]] == [(-12.0, "in"), (12.0, "out")]
+    assert body["head_speed"] == 1.2
     person.sees({f"{CARDS}:has-text('From gate to gate 2')": 3}).presses(CARDS).settles().sees({CLEAR: True})
     # The square with its streets is danced in, and the square without them is asked about again.
     assert person.address()["yard"] == "-12,-10_12,-10_12,10_-12,10"

@@ -81,7 +81,11 @@ def test_more_turns_and_longer_dances_are_wished_for():
 def test_rings_and_eights_go_around_as_often_as_is_asked_or_as_long_as_it_may_last():
     case = Case(SMALL, Dragon(8), (), LIMITS)
     dragon = Dragon(8)
-    once, often = (propose(SMALL, dragon, figures=["ring"], count=1, laps=laps).proposals[0] for laps in (1, 5))
+    once, often = (
+        propose(SMALL, dragon, figures=["ring"], count=1, **wish).proposals[0]
+        for wish in ({"laps": 1}, {"laps": 5, "head_speed": 1.2})
+    )
+    assert (once.dance.head_speed, often.dance.head_speed) == (1.0, 1.2)
     assert often.turns - once.turns == pytest.approx(4.0)
     around = (often.length - once.length) / 4
     ring, eight = sorted(
