@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import errno
+import hashlib
 import io
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
@@ -17,6 +18,7 @@ from app.command.options import Json
 from app.extras import require
 from app.files.disk import checked_output, ending_of, write_whole
 from app.files.workbooks import table_workbook
+from app.grade.class_table import Row, alike, rubric_of, team_points
 from app.grade.judged import MISSING, WRONG
 from app.grade.layout import SHEETS, TableKind
 from app.grade.reading import FILE_MAX
@@ -57,19 +59,29 @@ def grade(
     summary: Annotated[
         Path | None, typer.Option(help="Write a .csv or .xlsx file with one line for each number and file.")
     ] = None,
+    rubric: Annotated[
+        Path | None,
+        typer.Option(help="Points as a CSV that a teacher edits, as the page saves it: points of all teams."),
+    ] = None,
     json: Json = False,
 ) -> None:
     """Right and wrong parts of a student's results, with the known error behind each wrong one. The exit code is 0."""
     if summary and checked_output("summary", summary, (".csv", ".xlsx")) == ".xlsx":
         require("xlsx", "summary", "xlsx")
+    points = None if rubric is None else rubric_of(rubric.read_text("utf-8-sig", errors="replace"))
     grading = say("grading")
     numbers = {"collision_time": collision_time, "pitch": pitch, "turn_length": turn_length, "speed": speed}
     typed_numbers = {name: text for name, text in numbers.items() if text is not None}
     paths = list(_paths_of(files or []))
     if not paths and not typed_numbers:
         raise InvalidValue.in_words("files", "give at least one FILE or one number, such as --pitch 0.45")
+    # A team has a folder, unless all files lie in one, or in the folder of the class itself.
+    parents = {path.parent for path in paths}
+    shared = {*(files or [])} | (parents if len(parents) == 1 else set())
     answers = [typed(name, text) for name, text in typed_numbers.items()]
-    grades, refused = [], []
+    grades: list[FileAnswer] = []
+    rows: list[Row] = []
+    refused = []
     with show.steps() if len(paths) > 1 else nullcontext(lambda what, share: None) as progress:
         for k, file in enumerate(paths):
             name = str(file).translate(ESCAPED)  # A name may come from a student.
@@ -82,6 +94,8 @@ def grade(
                 grades.append(unreadable(name, note("not_opened", why=_why(error))))
             else:
                 grades.append(_graded(name, data))
+                team = file.stem if file.parent in shared else file.parent.name
+                rows.append(_row_of(file, team, grades[-1], data))
             progress(grading, (k + 1) / len(paths))
     if refused and len(refused) == len(paths) and not answers:
         raise refused[0]
@@ -89,7 +103,8 @@ def grade(
     if summary:
         as_file = _workbook if ending_of(summary) == ".xlsx" else _csv
         write_whole(summary, as_file(answer))
-    show.print_result(answer, json, _parts(answer))
+    parts = [*_parts(answer), *(_teams(team_points(rows, points)) if points else ()), *alike(rows)]
+    show.print_result(answer, json, iter(parts))
 
 
 def _why(error: OSError) -> Note | str | None:
@@ -98,6 +113,29 @@ def _why(error: OSError) -> Note | str | None:
         error.errno or 0
     )
     return note(code) if code else error.strerror
+
+
+def _row_of(file: Path, team: str, graded: FileAnswer, data: bytes) -> Row:
+    """A file on the table of its class."""
+    cells, right, missing = _counts(graded)
+    digest = hashlib.sha256(data).hexdigest()
+    return Row(
+        team.translate(ESCAPED),
+        file.name.translate(ESCAPED),
+        graded.workbook,
+        graded.verdict,
+        cells,
+        right,
+        missing,
+        digest,
+    )
+
+
+def _teams(points: list[tuple[str, float]]) -> Iterator[Part]:
+    table = Table(word("class_sheet"), word("class_team"), word("class_points"))
+    for team, value in points:
+        table.add(team, f"{value:g}")
+    yield table
 
 
 def _graded(name: str, data: bytes) -> FileAnswer:

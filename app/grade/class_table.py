@@ -3,7 +3,8 @@
 Input: one row for each file, and the rubric as a teacher writes it. Output: the points, and remarks. State: none.
 
 A remark that two teams handed in the same file rests on its bytes alone: a workbook that was saved twice differs in its
-bytes, so that equal ones are copies. A blank form is no remark: it holds nothing that anybody worked on.
+bytes, so that equal ones are copies, or were written by a program that writes the same for everyone, as this one does.
+A blank form is no remark: it holds nothing that anybody worked on.
 """
 
 from __future__ import annotations
@@ -84,13 +85,14 @@ def points_of(row: Row, rubric: dict[str, float]) -> float:
     return round(rubric[row.workbook] * shares.get(row.verdict, row.right / row.cells), DECIMALS)
 
 
-def team_points(rows: Sequence[Row], rubric: dict[str, float]) -> dict[str, float]:
-    """Points of each team: of several files for one workbook the best counts."""
+def team_points(rows: Sequence[Row], rubric: dict[str, float]) -> list[tuple[str, float]]:
+    """Points of each team, the most first: of several files for one workbook the best counts."""
     best: dict[str, dict[str | None, float]] = defaultdict(dict)
     for row in rows:
         of_team = best[row.team]
         of_team[row.workbook] = max(of_team.get(row.workbook, 0.0), points_of(row, rubric))
-    return {team: round(sum(points.values()), DECIMALS) for team, points in best.items()}
+    points = {team: round(sum(of_team.values()), DECIMALS) for team, of_team in best.items()}
+    return sorted(points.items(), key=lambda one: (-one[1], one[0]))
 
 
 def alike(rows: Sequence[Row]) -> list[str]:

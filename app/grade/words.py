@@ -155,7 +155,7 @@ WORDS: Phrases = ERRORS | PAPER | {f"name_{code}": name for code, name in NAMES.
     "class_sheet": "class",
     "rubric_what": "what",
     "rubric_points": "points",
-    "alike": "These are the same file, byte for byte: {files}. Perhaps one was handed in by mistake; ask before you judge.",
+    "alike": "These are the same file, byte for byte: {files}. Perhaps one was handed in by mistake, or a program wrote both, as Bench Dragon writes the same for everyone: ask before you judge.",
     "column_file": "file",
     "column_workbook": "workbook",
     "column_verdict": "verdict",

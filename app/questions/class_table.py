@@ -83,8 +83,7 @@ def class_table(request: ClassTableRequest, terms: Terms, form: str) -> ClassTab
         for row, file in zip(rows, request.files, strict=True)
     ]
     if form == JSON:
-        points = sorted(team_points(rows, rubric).items(), key=lambda one: (-one[1], one[0]))
-        teams: list[list[str | float]] = [[team, value] for team, value in points]
+        teams: list[list[str | float]] = [[team, points] for team, points in team_points(rows, rubric)]
         return ClassTable(heads=heads, rows=table, teams=teams, notes=alike(rows), rubric=rubric_text(rubric))
     if form == XLSX_TYPE:
         return table_workbook(word("class_sheet"), heads, table)

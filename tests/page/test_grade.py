@@ -71,6 +71,27 @@ def types_and_drops(person, files):
     person.takes(files[:2], "#files").sees({"#grades [role=status]": "result1.xlsx (1 of 2)"})
 
 
+# A folder as a browser hands it over when it is dropped, with a folder for each team, in two readings.
+DROP_FOLDER = """data => {
+  const file = (name) => new File([new Uint8Array(data)], name);
+  const entry = (path, inside) => ({ fullPath: path, isDirectory: !!inside,
+    file: (take) => take(file(path.split("/").at(-1))),
+    createReader: () => ({ readEntries: (take) => take(inside.splice(0, 1)) }) });
+  const teams = ["Red", "Gold"].map((team) => entry(`/class/${team}`, [entry(`/class/${team}/result2.xlsx`)]));
+  const event = new DragEvent("drop", { bubbles: true, cancelable: true });
+  const items = [{ webkitGetAsEntry: () => entry("/class", teams) }];
+  Object.defineProperty(event, "dataTransfer", { value: { items, files: [file("class")], types: ["Files"] } });
+  document.querySelector("#drop").dispatchEvent(event);
+}"""
+
+
+def test_a_dropped_folder_is_a_class(open_page, files):
+    person = open_page(EASY).reaches_below()
+    person.ask(DROP_FOLDER, list(files[1].read_bytes()))
+    person.sees({"#grades .class tbody tr": 2, "#grades .class .hint": "Red/result2.xlsx, Gold/result2.xlsx"})
+    assert person.texts("#grades .class tbody td:first-child") == ["Red", "Gold"]
+
+
 def test_a_class_is_graded_from_an_archive_sorted_saved_and_two_equal_files_are_pointed_out(open_page, files, tmp_path):
     archive = tmp_path / "class.zip"
     with ZipFile(archive, "w", ZIP_DEFLATED) as written:

@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -60,6 +61,19 @@ def test_a_folder_is_graded_by_path_with_exit_code_0(class_of_three, tmp_path):
     assert verdicts_of(files) == verdicts
     assert [error["error"] for error in files[0]["diagnosis"]] == ["other_instant", "time_steps"]
     assert verdicts_in(summary) == verdicts
+
+
+def test_a_class_has_the_points_of_a_rubric_and_equal_files_are_pointed_out(class_of_three, tmp_path):
+    copy, rubric = class_of_three / "zhou" / "mine.xlsx", tmp_path / "rubric.csv"
+    copy.parent.mkdir()
+    copy.write_bytes((class_of_three / "wang" / "result2.xlsx").read_bytes())
+    rubric.write_text("what,points\nresult2,55\n", encoding="utf-8")
+    done = run("grade", str(class_of_three), "--rubric", str(rubric))
+    shutil.rmtree(copy.parent)
+    table, _, remark = done.stdout.rpartition("team ")[2].partition("These are the same file")
+    points = dict(line.split() for line in table.splitlines()[2:] if line.strip())
+    assert (points["wang"], points["zhou"], points["zhao"]) == ("55", "55", "0")
+    assert "wang/result2.xlsx, zhou/mine.xlsx" in remark
 
 
 def test_files_stand_in_the_order_given_and_a_missing_one_is_reported(class_of_three):
