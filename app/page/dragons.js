@@ -16,7 +16,7 @@ import { announceReplaced, isPresetVenue } from "./presets.js";
 import { isFurther, queued } from "./queue.js";
 import { announceSaved } from "./saved.js";
 import { circle, isInside, onBorder } from "./square.js";
-import { benchName, between, language, phrase, say, sayIn, sayOf, writeTexts } from "./text.js";
+import { language, phrase, say, sayIn, writeTexts } from "./text.js";
 import { LEGS, OWN, PARTS, PRESETS, Tracks, isForeign, legsOf, recordOf, recordText, recordsIn, trackOf, wayOf } from "./together.js";
 
 /** Dances to begin with. @type {Phrases} */
@@ -481,11 +481,6 @@ export class Dragons {
     }
   }
 
-  /** The name of a bench with that of its dragon. */
-  #benchOf({ parts }, dragon, bench) {
-    return say("{bench} of {name}", { bench: benchName(bench, parts[dragon].numbers.benches), name: parts[dragon].name });
-  }
-
   /** The verdict on all of them. */
   judged() {
     const { dance, refusals } = this.questions;
@@ -496,14 +491,8 @@ export class Dragons {
       return this.judgement.refuse({ ...refusal.problem, sentence: name + refusal.problem.sentence });
     }
     if (dance?.kind !== "dances") return;
-    const apart = dance.answer.outcome === "clear" ? [sayOf("dragonsApart", this.#stray())] : [];
-    this.judgement.show({ ...dance, lines: apart, known: [dance.answer.certificate.method] }, null);
+    const { outcome, sentences, certificate } = dance.answer;
+    this.judgement.show({ ...dance, lines: outcome === "clear" ? sentences : [], known: [certificate.method] }, null);
     $("#stage").setAttribute("aria-busy", "false");
-  }
-
-  /** The caption of the magnifier: the two benches that meet. */
-  insetWords({ dragons, benches }) {
-    const { dance } = this.questions;
-    return [0, 1].map((k) => this.#benchOf(dance, dragons[k], benches[k])).join(between());
   }
 }

@@ -1,10 +1,11 @@
 /** The charts of the page: the content, the reading and the help text of each. */
 
-import { centimetres, gapWords, instantWords, outcomeWords } from "./answers.js";
+import { gapWords, headlineOf, instantWords } from "./answers.js";
 import { Chart, clearancePlan, curvePlan, scanPlan } from "./charts.js";
 import { $, make } from "./elements.js";
 import { CONTACT, strayOf } from "./fields.js";
-import { benchName, phrase, say, sayOf } from "./text.js";
+import { bound } from "./numbers.js";
+import { benchName, phrase, say } from "./text.js";
 
 const PITCH_DECIMALS = 4;
 /** Difference of two times that are shown as one [s]. */
@@ -53,8 +54,15 @@ export class Graphs {
   /** The help texts, which depend on the definition of a contact. */
   help() {
     const request = this.state.texts(CONTACT);
-    $("#clearance .hint").textContent = sayOf("clearanceHelp", request);
-    $("#scan .hint").textContent = sayOf("scanHelp", request) + (strayOf(request) > 0 ? say(" The curve is for people exactly in their places.") : "");
+    const strays = strayOf(request) > 0;
+    const gaps = strays
+      ? phrase("Smallest gap between two benches that share no handle, with everybody in their place. Dots: local minima; dashed: the margin; cross: from then on two may be in contact. Click or drag to move the dance.")
+      : phrase("Smallest gap between two benches that share no handle. Dots: local minima; dashed: the margin; cross: the first time at the margin. Click or drag to move the dance.");
+    $("#clearance .hint").textContent = say(gaps);
+    const radii = Number(request.margin) > 0
+      ? phrase("Radius of the head when two benches first come within {margin} m of each other; the curve jumps. Dashed: turning circle; dotted: minimum pitch; line: your pitch. Click to set the pitch.")
+      : phrase("Radius of the head at first contact; the curve jumps. Dashed: turning circle; dotted: minimum pitch; line: your pitch. Click to set the pitch.");
+    $("#scan .hint").textContent = say(radii, request) + (strays ? say(" The curve is for people exactly in their places.") : "");
   }
 
   /** Show a refusal in place of the chart of this kind, if there is one. problem: null if it is shown elsewhere */
@@ -102,7 +110,7 @@ export class Graphs {
     this.#charts.curve.show({ ...curve.answer, own, least });
     const pitch = tolerance?.request.pitch ?? null;
     this.#charts.curve.now(pitch && Number(pitch));
-    const words = () => say("pitch {pitch} m: everybody may be {stray} cm from their place", { pitch, stray: centimetres(tolerance.answer.stray) });
+    const words = () => say("pitch {pitch} m: everybody may be {stray} cm from their place", { pitch, stray: bound(100 * tolerance.answer.stray, 2, -1) });
     $("#curve .reading").textContent = pitch ? words() : "";
   }
 
@@ -119,14 +127,14 @@ export class Graphs {
   pitch() {
     const { answer, numbers, kind } = this.questions.dance ?? {};
     const { look, scan } = this.questions.answers;
-    if (!(scan ?? look) || !answer || kind === "route") return;
+    if (!(scan ?? look) || !answer?.words || kind === "route") return;
     const { pitch } = numbers;
     this.#charts.scan.now(pitch);
     // With a stray the head need not stop there.
     const stops = answer.head && !(strayOf(numbers) > 0);
     const words = stops
       ? say("pitch {pitch} m: the head stops at {radius} m", { pitch, radius: answer.head.radius.toFixed(6) })
-      : `${say("Pitch")} ${pitch} m${say(": ")}${outcomeWords(answer, numbers)}`;
+      : `${say("Pitch")} ${pitch} m${say(": ")}${headlineOf(answer.words)}`;
     $("#scan .reading").textContent = [kind === "spiral" && words, !scan && say("first view; the jumps are still being located")].filter(Boolean).join(" · ");
   }
 }

@@ -132,9 +132,7 @@ function showPose(pose) {
   Object.assign(dance.scene, { pose, dragon: numbers, contact: drawn, parts: several });
   $("#halo").hidden = !(strayOf(numbers) > 0);
   $("#inset").hidden = !contact?.point;
-  const { answer: touching, dance: of } = questions.answers.gap ?? {};
-  const gap = of === questions.dance ? touching.clearance[0] : null;
-  if (contact) $("#inset figcaption").textContent = contact.dragons ? dragons.insetWords(contact) : answers.insetWords(contact, gap, numbers);
+  if (contact) $("#inset figcaption").textContent = contact.words?.meeting ?? contact.sentences[0];
   const [low, high] = dance.scene.speeds ?? speedRange(pose);
   const [least, largest] = $$("#legend span");
   // As few decimals as tell the two speeds apart.
@@ -186,7 +184,7 @@ function showTime() {
 /** How each kind of answer changes the screen; called again after a change of language. */
 const SHOW = {
   dance() {
-    const { answer, numbers, begin, end } = questions.dance;
+    const { answer, begin, end } = questions.dance;
     Object.assign($("#time"), { min: begin, max: end });
     markContact(answer, begin, end);
     pace.begun(questions.dance);
@@ -196,10 +194,10 @@ const SHOW = {
       carrier?.show();
       return dragons.showDance();
     }
-    Object.assign($("#verdict"), { hidden: false, textContent: answers.verdictWords(answer, numbers) });
-    answers.showFirstContact($("#first-contact"), answer, numbers);
+    Object.assign($("#verdict"), { hidden: false, textContent: answers.verdictWords(answer) });
+    answers.showFirstContact($("#first-contact"), answer);
     if ($("#judgement").hidden) tell($("#first-contact"));
-    answers.showEnd($("#run-end"), answer, questions.dance, numbers);
+    answers.showEnd($("#run-end"), questions.dance);
     graphs.pitch();
     below?.show();
     route?.judged();
@@ -227,8 +225,8 @@ const SHOW = {
     // A refusal of the numbers that are entered now stays.
     if (of !== questions.dance || questions.refusals.has("contact")) return;
     // At rest the engines check the whole dragon; while a slider is dragged, only the pair.
-    const { cross_check } = answer.first_contact;
-    answers.showFirstContact($("#first-contact"), { ...of.answer, cross_check }, of.numbers);
+    const { engines } = answer.first_contact.words;
+    answers.showFirstContact($("#first-contact"), { ...of.answer, words: { ...of.answer.words, engines } });
   },
   clearance() {
     graphs.clearance();
@@ -243,7 +241,6 @@ const TELL = {
     player.update(false);
     carrier?.hold();
   },
-  gap: () => dance.scene.pose && showPose(dance.scene.pose),
   path(points) {
     dance.setPath(points, route?.around(), route?.yard());
     route?.knotted();

@@ -35,7 +35,7 @@ const QUICK = { cross_check: "pair" };
 /** While a path is being drawn, the only question is whether it can be danced. */
 const VERDICT = { cross_check: "none", details: false };
 /** Channels of the questions at rest about a drawn dance. */
-const AT_REST = ["speeds", "gap", "clearance", "fastest", "tolerance"];
+const AT_REST = ["speeds", "clearance", "fastest", "tolerance"];
 /** Questions whose refusals concern an entered number; other refusals only affect what can be shown. The last one wins. */
 const ABOUT_NUMBERS = ["time", "quickest", "head", "shortest", "minimum", "contact"];
 /** Those of them that are asked about each kind of path. */
@@ -378,7 +378,6 @@ export class Questions {
     dance.isExplored = true;
     const { begin, end } = dance;
     this.#keep("speeds", "trajectory", { body: this.body({ times: speedTimes(dance), decimals: 6 }) }, dance);
-    if (dance.answer.time !== null) this.#keep("gap", "clearance", this.#clearanceOf(dance, end, end, 1), dance);
     // Two benches share a handle, so that there is no gap to ask about.
     if (dance.numbers.benches < PAIRED) this.#accepted("clearance", { answer: null, dance });
     else this.#keep("clearance", "clearance", this.#clearanceOf(dance, begin, end, (end - begin) / CLEARANCE_SAMPLES || 1), dance);

@@ -1,8 +1,6 @@
 /** Texts of the page: its words in the chosen language, and the service's refusals. */
 
 import { $$ } from "./elements.js";
-import { strayOf } from "./fields.js";
-import { FORMS } from "./forms.js";
 
 /** Language -> English template -> its text; English needs none. */
 const CATALOGUES = {};
@@ -88,25 +86,6 @@ function filled(text, values) {
 
 /** Sentences one after the other, as the language writes them. */
 export const sentencesOf = (sentences) => sentences.filter(Boolean).reduce((first, second) => (first ? say("{first} {second}", { first, second }) : second), "");
-
-/**
- * The sentence of this name in FORMS for a question: with a margin benches in contact may be apart, and with a stray they
- * only may touch. {touch} in it stands for the words for a contact. request: {margin, stray, hole, pin}, [m]
- * @param {any} request
- */
-export function sayOf(name, request, values = {}) {
-  const [near, strays] = [Number(request.margin) > 0, strayOf(request) > 0];
-  const form = (key) => FORMS[[strays && `${key}Stray`, near && `${key}Near`].find((one) => one in FORMS) ?? key];
-  const { margin } = request;
-  const touch = near ? say("come within {margin} m", { margin }) : say("touch");
-  return say(form(name), { margin, touch, ...values });
-}
-
-/** A title with the stray of the answer. */
-export function titleOf(key, request) {
-  const [title, stray] = [sayOf(key, request), strayOf(request)];
-  return stray > 0 ? say(request.hole > 0 ? "{title}, every hole within {stray} cm of its place" : "{title}, everybody within {stray} cm of their place", { title, stray: Number((100 * stray).toPrecision(9)) }) : title;
-}
 
 export const nameBenches = (names) => (households = names);
 const withHousehold = (words, k) => (households[k] ? say("{words} ({name})", { words, name: households[k] }) : words);

@@ -13,6 +13,7 @@ from app.files.tables import TABLE_ENDINGS, TABLE_EXTRAS, trajectory_writer
 from app.questions import figures
 from app.questions.collision_time import CollisionTime, Contact
 from app.questions.encounter import Encounter
+from app.wire import evidence
 from app.wire.answers import SENTENCES, DragonPair, Pair, Point
 from app.wire.clocks import clock_at_zero, time_of_day
 from app.wire.dances import PlacedDance, SpanFields, TimeRange, clock_of
@@ -83,6 +84,7 @@ class HighestSpeed(Answer, of=core.HighestSpeed):
     handles: list[int]
     passage: int | None
     sentences: list[str] = SENTENCES
+    words: evidence.Words | None = evidence.WORDS
 
 
 class Failure(Answer, of=core.Failure):
@@ -147,7 +149,9 @@ class Report(Answer, of=core.Report):
         venue = None if result.venue is None else VenueClearance.from_result(result.venue, stray=result.venue.misplaced)
         begins, ends = (None if clock is None else time_of_day(time, clock) for time in (result.start, result.stop))
         speed = result.highest_speed and HighestSpeed.from_result(
-            result.highest_speed, sentences=[speed_words(result.highest_speed)]
+            result.highest_speed,
+            sentences=[speed_words(result.highest_speed)],
+            words=evidence.speed_words(result.highest_speed) if terms.words else None,
         )
         own = {"failures": failures, "first_contact": contact, "venue": venue, "origin": place.origin}
         return cls.from_result(result, begins=begins, ends=ends, highest_speed=speed, **own)

@@ -7,6 +7,7 @@ from typing import Self
 from pydantic import Field
 
 import core
+from app.wire import evidence
 from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair, Point
 from app.wire.dances import DanceFields, SpanFields
 from app.wire.fields import Answer, CrossCheck, DanceQuery, Margin, Strays, UniformDragon
@@ -64,6 +65,7 @@ class CollisionTime(Answer, of=core.FirstContact):
     point: Point | None
     end: core.RunEnd | None
     sentences: list[str] = SENTENCES
+    words: evidence.ContactWords | None = evidence.WORDS
     certificate: Certificate
     cross_check: core.ContactCheck | None = Field(
         description="Verdicts of the engines 1e-6 m of travel before and after the contact (for a contact at the "
@@ -77,8 +79,10 @@ class CollisionTime(Answer, of=core.FirstContact):
         if request.cross_check != "none":
             whole = request.cross_check == "dragon"
             check = core.contact_check(contact, whole=whole, budget=terms.budget)
+        sentences = contact_words(contact)
+        words = evidence.contact_words(contact, request, check, sentences) if terms.words else None
         own = {"margin": request.margin, "stray": request.total_stray, "cross_check": check}
-        return cls.from_result(contact, sentences=contact_words(contact), **own)
+        return cls.from_result(contact, sentences=sentences, words=words, **own)
 
 
 def collision_time(request: CollisionQuery | CollisionRequest, terms: Terms) -> CollisionTime:

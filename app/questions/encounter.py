@@ -9,11 +9,12 @@ from pydantic import Field
 import core
 from app.questions.collision_time import Contact
 from app.questions.figures import FORMATS, PICTURES
-from app.wire.answers import TOTAL_STRAY, DragonPair, EncounterCheck, OwnedFeature, Pair, Point
+from app.wire.answers import SENTENCES, TOTAL_STRAY, DragonPair, EncounterCheck, OwnedFeature, Pair, Point
 from app.wire.fields import Answer
 from app.wire.labels import with_strays
 from app.wire.performances import FILE_OF_DANCES, PerformanceFields, PerformanceSpan
 from app.wire.question import Command, Output, Question, Terms, Writer
+from app.wire.readings import met_words
 from core import Outcome
 from core.errors import format_number
 from core.language import say
@@ -59,6 +60,7 @@ class Encounter(Answer, of=core.FirstEncounter):
     edge: OwnedFeature | None
     point: Point | None
     end: core.PerformanceEnd | None
+    sentences: list[str] = SENTENCES
     certificate: EncounterCertificate
     cross_check: EncounterCheck | None = Field(
         description="Verdicts of the engines on the benches of all dragons, 1e-6 m of travel of the faster head before "
@@ -80,6 +82,7 @@ class Encounter(Answer, of=core.FirstEncounter):
             names=None if result.dragons is None else [parts[k].name for k in result.dragons],
             corner=corner,
             edge=edge,
+            sentences=met_words(result),
             cross_check=None if check is None else EncounterCheck.of(check),
         )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pydantic import Field
 
 import core
+from app.wire import evidence
 from app.wire.answers import SENTENCES
 from app.wire.dances import DanceFields
 from app.wire.fields import Answer, Instant, SpeedLimit, UniformDragon, Wire, measure
@@ -50,6 +51,7 @@ class MaximumHeadSpeed(Answer, of=core.MaximumHeadSpeed):
     time_at_unit_head_speed: float
     passage: int | None
     sentences: list[str] = SENTENCES
+    words: evidence.Words | None = evidence.WORDS
 
 
 def maximum_head_speed(request: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, terms: Terms) -> MaximumHeadSpeed:
@@ -61,7 +63,8 @@ def maximum_head_speed(request: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest,
         # Core takes times at a head speed of 1 m/s.
         start, stop = (None if time is None else time * request.head_speed for time in (request.start, request.stop))
         result = core.maximum_head_speed(dance, limit, start=start, stop=stop, budget=terms.budget)
-    return MaximumHeadSpeed.from_result(result, sentences=head_words(result, limit))
+    words = evidence.head_words(result) if terms.words else None
+    return MaximumHeadSpeed.from_result(result, sentences=head_words(result, limit), words=words)
 
 
 def _title(request: SpeedLimitField) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pydantic import Field
 
 import core
+from app.wire import evidence
 from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair, Point
 from app.wire.dances import BenchByBench, DragonFields
 from app.wire.fields import PITCH_MAX, Answer, CrossCheck, Strays, UniformDragon, Whole
@@ -60,6 +61,7 @@ class MinimumPitch(Answer, of=core.MinimumPitch):
     dragons: Pair | None
     stray: float | None = TOTAL_STRAY
     sentences: list[str] = SENTENCES
+    words: evidence.Words | None = evidence.WORDS
     cross_check: core.ContactCheck | None = Field(
         description="Verdicts of the engines at a pitch 1e-6 m larger and smaller, with the head where the pair is in "
         "contact (with a stray shapely's alone, for the areas that benches may cover); of several dragons bench b of "
@@ -108,8 +110,10 @@ def minimum_pitch(request: MinimumPitchQuery | MinimumPitchRequest, terms: Terms
             whole=whole,
             budget=terms.budget,
         )
-    words = pitch_words(result, dragon, request.turning_diameter, request.margin, stray)
-    return MinimumPitch.from_result(result, stray=request.total_stray, sentences=words, cross_check=check)
+    sentences = pitch_words(result, dragon, request.turning_diameter, request.margin, stray)
+    words = evidence.pitch_words(result, request, dragon, check) if terms.words else None
+    own = {"stray": request.total_stray, "sentences": sentences, "words": words, "cross_check": check}
+    return MinimumPitch.from_result(result, **own)
 
 
 def _cost(request: MinimumPitchQuery | MinimumPitchRequest) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import core
 from app.questions.maximum_head_speed import SpeedLimitField
 from app.questions.turn_time import TurnTime
+from app.wire import evidence
 from app.wire.dances import DragonFields
 from app.wire.fields import Margin, UniformDragon, measure
 from app.wire.paths import TurnCircle
@@ -45,16 +46,17 @@ def quickest_turn(request: QuickestTurnQuery | QuickestTurnRequest, terms: Terms
         dragon, request.pitch, radius, request.ratio, speed_limit=request.speed_limit, start_turns=request.start_turns,
         margin=request.margin, budget=terms.budget,
     )  # fmt: skip
-    words = [
+    sentences = [
         time_words(result, request.speed_limit),
         joined([turn_words(result.turn), say("A shorter turn bends more, so the head must go slower.")]),
-        say(
-            "With everybody in their place nothing touches in it, and no handle exceeds the limit: both are proven. "
-            "That no turn is quicker is not: entries and exits {step} cm apart were tried, and the best ones refined.",
-            step=format_number(100.0 * GRID * radius),
-        ),
     ]
-    return QuickestTurn.from_core(result, sentences=words, scan_step=GRID * radius)
+    how = say(
+        "With everybody in their place nothing touches in it, and no handle exceeds the limit: both are proven. "
+        "That no turn is quicker is not: entries and exits {step} cm apart were tried, and the best ones refined.",
+        step=format_number(100.0 * GRID * radius),
+    )
+    words = evidence.time_words(say("Quickest turn"), result, [how]) if terms.words else None
+    return QuickestTurn.from_core(result, sentences=[*sentences, how], words=words, scan_step=GRID * radius)
 
 
 def _title(request: SpeedLimitField) -> str:

@@ -6,6 +6,7 @@ from pydantic import Field
 
 import core
 from app.questions.turn import Turn
+from app.wire import evidence
 from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair, Point
 from app.wire.dances import DragonFields
 from app.wire.fields import Margin, Strays, UniformDragon, measure
@@ -72,6 +73,7 @@ class ShortestTurn(Turn):
     evaluations: int = Field(description="Number of turns danced")
     stray: float | None = TOTAL_STRAY
     sentences: list[str] = SENTENCES
+    words: evidence.Words | None = evidence.WORDS
 
 
 def shortest_turn(request: ShortestTurnQuery | ShortestTurnRequest, terms: Terms) -> ShortestTurn:
@@ -91,9 +93,10 @@ def shortest_turn(request: ShortestTurnQuery | ShortestTurnRequest, terms: Terms
         ratio = None if request.any_ratio else request.ratio
         result = core.shortest_turn(dragon, *circle, ratio, **about, budget=terms.budget)
         own = {"benches": None, "time": None, "scan_step": 0.0}
-    words = [turn_words(result.turn), limit_words(result.limited_by, request.margin, request.to_stray())]
-    turn = Turn.of(result.turn).model_dump()
-    return ShortestTurn.from_result(result, stray=request.total_stray, sentences=words, **own, **turn)
+    sentences = [turn_words(result.turn), limit_words(result.limited_by, request.margin, request.to_stray())]
+    words = evidence.shortest_words(result, request, dragon) if terms.words else None
+    said = {"stray": request.total_stray, "sentences": sentences, "words": words}
+    return ShortestTurn.from_result(result, **said, **own, **Turn.of(result.turn).model_dump())
 
 
 def _title(request: ShortestTurnQuery | ShortestTurnRequest) -> str:

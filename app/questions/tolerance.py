@@ -8,6 +8,7 @@ from pydantic import Field
 
 import core
 from app.questions.encounter import EncounterCertificate
+from app.wire import evidence
 from app.wire.answers import SENTENCES, Point
 from app.wire.dances import PlacedDance, SpanFields
 from app.wire.fields import Answer, DanceQuery, TurningDiameter, Wire, measure
@@ -93,6 +94,7 @@ class Tolerance(Answer, of=core.Tolerance):
     start: float
     stop: float
     sentences: list[str] = SENTENCES
+    words: evidence.Words | None = evidence.WORDS
     certificate: StrayProof
 
 
@@ -134,8 +136,10 @@ def tolerance(request: ToleranceQuery | DanceTolerance, terms: Terms) -> Toleran
     pose = (
         None if result.exhibit is None else Shown.from_result(result.exhibit, handles=result.exhibit.handles.tolist())
     )
-    words = stray_words(result, dance.dragon, request.turning_diameter)
-    return Tolerance.from_result(result, exhibit=pose, stray_with_errors=with_errors, sentences=words)
+    sentences = stray_words(result, dance.dragon, request.turning_diameter)
+    words = evidence.stray_words(result) if terms.words else None
+    own = {"exhibit": pose, "stray_with_errors": with_errors, "sentences": sentences, "words": words}
+    return Tolerance.from_result(result, **own)
 
 
 def _together(request: ToleranceRequest, terms: Terms) -> PerformanceTolerance:

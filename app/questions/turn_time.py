@@ -9,6 +9,7 @@ from pydantic import Field
 import core
 from app.questions.maximum_head_speed import SpeedLimitField
 from app.questions.turn import Turn
+from app.wire import evidence
 from app.wire.answers import SENTENCES
 from app.wire.dances import DragonFields
 from app.wire.fields import UniformDragon
@@ -36,6 +37,7 @@ class TurnTime(Turn, of=core.TurnTime):
     time: float
     handles: list[int]
     sentences: list[str] = SENTENCES
+    words: evidence.Words | None = evidence.WORDS
 
     @classmethod
     def from_core(cls, result: core.TurnTime, **own: Any) -> Self:
@@ -47,7 +49,9 @@ def turn_time(request: TurnTimeQuery | TurnTimeRequest, terms: Terms) -> TurnTim
     dragon = request.to_dragon(terms.settings.checked_benches_max)
     path = request.to_turn() if isinstance(request, TurnTimeQuery) else request.path.to_path()
     result = core.turn_time(dragon, path, request.speed_limit, budget=terms.budget)
-    return TurnTime.from_core(result, sentences=[time_words(result, request.speed_limit)])
+    how = say("The length of both arcs over the maximum speed of the head, which is proven.")
+    words = evidence.time_words(say("Time through this turn"), result, [how]) if terms.words else None
+    return TurnTime.from_core(result, sentences=[time_words(result, request.speed_limit)], words=words)
 
 
 def _title(request: SpeedLimitField) -> str:

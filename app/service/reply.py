@@ -32,10 +32,11 @@ class Computation:
     """The answer to a call in one form, not yet computed.
 
     inputs: values of the query or the body; media_type: form of the answer; path: of the request
+    words: whether the answer is wanted in words too
     """
 
-    def __init__(self, call: Call, inputs: Wire, media_type: str, path: str) -> None:
-        self.call, self.inputs, self.media_type, self._path = call, inputs, media_type, path
+    def __init__(self, call: Call, inputs: Wire, media_type: str, path: str, *, words: bool = False) -> None:
+        self.call, self.inputs, self.media_type, self._path, self.words = call, inputs, media_type, path, words
 
     @cached_property
     def cost(self) -> float:
@@ -51,7 +52,8 @@ class Computation:
         """
         times = getattr(self.inputs, "times", self.inputs)
         stated = times.stated if isinstance(times, TimeRange) else ""
-        values = "\n".join((build(), self._path, self.media_type, spoken(), self.inputs.model_dump_json(), stated))
+        language = f"{spoken()} {self.words}"
+        values = "\n".join((build(), self._path, self.media_type, language, self.inputs.model_dump_json(), stated))
         return hashlib.blake2b(values.encode(), digest_size=16).hexdigest()
 
     @property
@@ -115,7 +117,9 @@ class Reply:
         # Who asks for bytes gets a file in its first form.
         offers = [*forms, BYTES] if call.question.model is None else forms
         media_type = form_of(header_list(self.request.headers, "accept"), offers, {"name": "Accept"})
-        return Computation(call, inputs, forms[0] if media_type == BYTES else media_type, self.request.scope["path"])
+        form_chosen = forms[0] if media_type == BYTES else media_type
+        words = "accept-language" in self.request.headers
+        return Computation(call, inputs, form_chosen, self.request.scope["path"], words=words)
 
     def _place(self, computation: Computation, budget: Budget, *, is_movable: bool) -> AbstractContextManager[None]:
         if is_movable:
@@ -140,7 +144,7 @@ class Reply:
         data: bytes | Iterator[bytes] | None = self._answers.get(tag)
         if data is None:
             with self._place(computation, budget, is_movable=is_movable):
-                data = computation.answer(Terms(self.settings, budget))
+                data = computation.answer(Terms(self.settings, budget, words=computation.words))
             if isinstance(data, bytes):
                 self._answers.keep(tag, data)
         if "*" in known:

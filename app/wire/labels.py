@@ -39,7 +39,7 @@ NULLS: Phrases = {"proven_up_to": "every larger pitch", "scan_step": "no scan"}
 # Proven fields, which are shown with all digits.
 PROVEN = frozenset({"clear_until", "proven_from", "proven_up_to"})
 # Fields whose values the sentences beside them have.
-UNSHOWN = frozenset({"claim", "sentences"})
+UNSHOWN = frozenset({"claim", "sentences", "words"})
 # Decimals of lengths and speeds on a terminal.
 DISPLAY_DECIMALS = 6
 # Most entries of a list in a table; of a longer list only their number is shown.

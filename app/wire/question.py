@@ -43,12 +43,14 @@ class Terms:
     budget: limit of the work, and the flag that ends it
     progress: called with the share of the work that is done, from 0 to 1
     part: called with each part of the answer as soon as it is known, where an answer has such parts
+    words: whether the answer is wanted in words too
     """
 
     settings: Settings = field(default_factory=Settings)
     budget: Budget = field(default_factory=Budget)
     progress: Progress = unheard
     part: Callable[[Answer], None] = unheard
+    words: bool = False
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from core.dance import EndReason
 from core.design.deepest_turn import TurnLimit
 from core.design.pitch_search import JustifiedBy, LimitedBy
 from core.errors import format_bound, format_number
-from core.failures import FailureKind, approach_words, area_approach_words, contact_failures
+from core.failures import FailureKind, approach_words, area_approach_words, contact_failures, encounter_failures
 from core.language import Language, Listed, Phrases, counted, phrase, say, spoken
 from core.tolerance.tolerance import Limit
 
@@ -110,6 +110,14 @@ def encounter_words(failure: core.PerformanceFailure, performance: core.Performa
     )
     meet = approach_words(limits.margin, limits.stray)
     return _sentence(phrase("{a} and {b} {meet}."), a=a, b=b, meet=meet)
+
+
+def met_words(result: core.FirstEncounter) -> list[str]:
+    """Which benches of two dragons first come too near, or that none do."""
+    limits = Limits(result.margin, result.stray, None, None)
+    if failures := encounter_failures(result):
+        return [encounter_words(failure, result.performance, limits) for failure in failures]
+    return [say("No two dragons {meet}.", meet=approach_words(result.margin, result.stray))]
 
 
 def dragons_failure_words(failure: core.PerformanceFailure, performance: core.Performance, limits: Limits) -> str:

@@ -124,7 +124,7 @@ def test_two_in_one_spiral_meet_when_the_reference_says_also_after_a_late_answer
     failure = "Body 3 of red and the head of blue touch."
     person.sees({".failures li": failure})
     person.has("#contact-mark", aria_label=f"Two dragons meet at {time}").presses("#to-end").settles()
-    person.reads({"#clock": time, "#inset figcaption": "body 3 of red, the head of blue"})
+    person.reads({"#clock": time, "#inset figcaption": failure})
     assert all(person.coloured(colour) > 200 for colour in COLOURS[:2])
     assert len(person.page.url) < ADDRESS_MOST
     # The same address, opened by somebody else.

@@ -4,6 +4,7 @@ import pytest
 
 from tests.support.asking import box, dance, line
 
+ENGINES = "separating axis", "FCL", "shapely", "angle sum (paper)"
 SHORT = dance(3, (0, 0), (60, 0))
 YARD = box(0, -0.15, 80, 9)
 # A call, its query or body, and what stands in its sentences in English; {name} is a value of the answer.
@@ -74,3 +75,16 @@ def test_a_bend_that_is_too_tight_says_what_its_bench_needs(client):
 def test_a_failure_names_benches_as_people_do_and_leaves_its_time_to_the_row(client, limits, sentences):
     answer = client.post("check", json=SHORT | {"venue": YARD} | limits).json()
     assert [one["sentence"] for one in answer["failures"]] == sentences
+
+
+def test_words_say_how_an_answer_is_known_where_a_language_is_asked_for_and_only_there(client):
+    asked = {"benches": 12, "cross_check": "pair"}
+    plain, worded = (
+        client.get("collision-time", params=asked, headers=more) for more in ({}, {"Accept-Language": "en"})
+    )
+    assert plain.json()["words"] is None
+    assert plain.headers["etag"] != worded.headers["etag"]
+    words = worded.json()["words"]
+    assert (words["title"], words["exact"]) == ("First contact", f"Contact at {worded.json()['time']:.6f} s")
+    assert words["engines"]["rows"][1:] == [[name, "apart", "they overlap"] for name in ENGINES]
+    assert "alone. They agree." in words["engines"]["caption"]
