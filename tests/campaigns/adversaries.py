@@ -1,108 +1,68 @@
 """Poses that seek a contact: two benches of the default dragon, every chord kept, all holes within a little less than
 the answer of tolerance().
 
-`python -m tests.campaigns.adversaries` says how near a million of them come. Half of those drawn at random turn as
-far as the stray allows, half have the middle on the edge of all places for their turn. The nearest ones are then
-varied at random, by less and less. Poses beyond the stray are taken back to its edge.
+`python -m tests.campaigns.adversaries` says how near a million of them come: scipy's differential evolution varies the
+turn and the middle of both benches. Poses beyond the stray are taken back to its edge.
 """
 
-import math
 
 import numpy as np
+from scipy.optimize import differential_evolution
 
 from core import Dance, Dragon, Spiral, bench_poses, clearance_profile, tolerance, trajectory
 from core.shapes.rectangles import frames, frames_separation
-from tests.support.random_strays import random_strays, strays_of
+from tests.support.random_strays import strays_of
 from tests.support.scenes import lengths_and_widths
 
 CIRCLE = 4.5  # radius of the turning circle [m]
-# Poses drawn at random for a place; those of them that are varied, and how often [1].
-DRAWS = 80_000
-VARIED = 150
-VARIANTS = 50
-# Rounds of variants; size of the first as a part of the stray, and factor from each to the next [1].
-ROUNDS = 16
-FIRST = 0.3
-SHRINK = 0.6
-# Random times, and poses of the two nearest benches at each of them [1].
+# Turn and middle of a bench, in strays: see strays_of().
+BOUNDS = [(-1.0, 1.0), (-2.0, 2.0), (-2.0, 2.0)] * 2
+# Rounds at a place where benches come near, and at any other; times of these [1].
+ROUNDS = 350
+FEW_ROUNDS = 2
 ANY_TIMES = 30
-ANY_DRAWS = 1_000
+POPULATION = 100  # poses of a round, for each number that is varied [1]
 
 
 def to_circle(pitch):
     """The default dragon on a spiral, and when its head is on the circle [s]."""
     spiral = Spiral(pitch)
-    theta = CIRCLE / spiral.growth
-    length = 0.5 * spiral.growth * (theta * math.hypot(1.0, theta) + math.asinh(theta))
-    return Dance(Dragon(), spiral), spiral.length - length
+    return Dance(Dragon(), spiral), spiral.travel_to(CIRCLE)
 
 
-class PairAtTime:
-    """Two benches of a dance at a time. stray: largest distance of their holes from their places [m]"""
+def gaps_of(dance, time, pair, stray):
+    """The function of strayed places of two benches (6, N) [stray] whose value is their gaps (N,) [m]."""
+    handles = trajectory(dance, time).position
+    sizes = lengths_and_widths(dance.dragon)
 
-    def __init__(self, dance, time, pair, stray):
-        handles = trajectory(dance, time).position
-        bench = list(pair)
-        self.stray = stray
-        self.handles = np.array([handles[k : k + 2] for k in pair])
-        self.chords = dance.dragon.chords[bench].tolist()
-        self.sizes = lengths_and_widths(dance.dragon)[bench]
-        heading = bench_poses(self.handles)[:, 0, 2]
-        cosine = np.cos(heading)
-        sine = np.sin(heading)
-        self.turns = np.moveaxis(np.array([[cosine, sine], [-sine, cosine]]), -1, 0)
+    def framed(bench, shapes):
+        chord = handles[bench : bench + 2]
+        cosine, sine = (chord[0] - chord[1]) / dance.dragon.chords[bench]
+        strays = strays_of(shapes[0], shapes[1:].T, dance.dragon.chords[bench], stray)
+        poses = bench_poses(chord + strays @ [[cosine, sine], [-sine, cosine]])[:, 0]
+        return frames(poses, np.broadcast_to(sizes[bench], (len(poses), 2)))
 
-    def gaps(self, strays):
-        """Gaps (N,) with the holes displaced in the benches' own frames: strays (N, bench, hole, 2) [m]."""
-        both = []
-        for k in range(2):
-            poses = bench_poses(self.handles[k] + strays[:, k] @ self.turns[k])[:, 0]
-            both.append(frames(poses, np.broadcast_to(self.sizes[k], (len(poses), 2))))
-        return frames_separation(*both).separation
+    def gaps(places):
+        both = zip(pair, np.split(stray * places, 2), strict=True)
+        return frames_separation(*(framed(*one) for one in both)).separation
 
-    def drawn(self, rng, count):
-        """Strays (count, 2, 2, 2) at random."""
-        return np.stack([random_strays(rng, chord, self.stray, count) for chord in self.chords], axis=1)
-
-    def laid(self, shapes):
-        """Strays of shapes (..., bench, 3): q and the middle of each, see random_strays.py."""
-        parts = [strays_of(shapes[:, k, 0], shapes[:, k, 1:], self.chords[k], self.stray) for k in range(2)]
-        return np.stack(parts, axis=1)
-
-    def vary(self, rng, shapes, sought):
-        """Vary the best shapes so far by less and less. sought: gets their gaps"""
-        for k in range(ROUNDS):
-            off = rng.normal(0.0, FIRST * SHRINK**k * self.stray, (VARIANTS, *shapes.shape))
-            off[0] = 0.0
-            strays = self.laid((shapes + off).reshape(-1, 2, 3))
-            sought.append(self.gaps(strays))
-            shapes = _shapes(strays[np.argsort(sought[-1])[:VARIED]])
+    return gaps
 
 
-def _shapes(strays):
-    """q and the middle (N, bench, 3) of strays."""
-    middle = 0.5 * strays.sum(axis=2)
-    half = 0.5 * (strays[:, :, 0] - strays[:, :, 1])
-    q = np.copysign(np.hypot(half[..., 0], half[..., 1]), half[..., 1])
-    return np.concatenate([q[..., None], middle], axis=-1)
-
-
-def seek(dance, known, part=0.999, draws=DRAWS):
+def seek(dance, known, part=0.999, rounds=ROUNDS):
     """Gaps [m] of poses of a default dance with this part of its tolerance, where and when benches are the nearest."""
-    assert known.time is not None
-    stray = part * known.stray
-    rng = np.random.default_rng(7)
-    sought = []
     at = known.time
-    for time, pair in [(at, (0, 19)), (at - 1.0, (0, 19)), (known.stop, (0, 18)), (322.9, (0, 17)), (320.0, (1, 20))]:
-        place = PairAtTime(dance, time, pair, stray)
-        strays = place.drawn(rng, draws)
-        sought.append(place.gaps(strays))
-        place.vary(rng, _shapes(strays[np.argsort(sought[-1])[:VARIED]]), sought)
+    rng = np.random.default_rng(7)
     others = clearance_profile(dance, rng.uniform(0.0, known.stop, ANY_TIMES))
-    for time, (a, b) in zip(others.time.tolist(), others.benches.tolist(), strict=True):
-        place = PairAtTime(dance, time, (a, b), stray)
-        sought.append(place.gaps(place.drawn(rng, ANY_DRAWS)))
+    places = [(at, (0, 19)), (at - 1.0, (0, 19)), (known.stop, (0, 18)), (322.9, (0, 17)), (320.0, (1, 20))]
+    sought = []
+    for k, (time, pair) in enumerate([*places, *zip(others.time, others.benches.tolist(), strict=True)]):
+        gaps = gaps_of(dance, time, pair, part * known.stray)
+        differential_evolution(
+            lambda shapes, gaps=gaps: sought.append(gaps(shapes)) or sought[-1],
+            BOUNDS, popsize=POPULATION, maxiter=rounds if k < len(places) else FEW_ROUNDS, tol=0.0, seed=7,
+            polish=False, updating="deferred", vectorized=True,
+        )  # fmt: skip
     return np.concatenate(sought)
 
 
