@@ -5,7 +5,6 @@ the answer of tolerance().
 turn and the middle of both benches. Poses beyond the stray are taken back to its edge.
 """
 
-
 import numpy as np
 from scipy.optimize import differential_evolution
 

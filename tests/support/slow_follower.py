@@ -7,7 +7,7 @@ import numpy as np
 from core import Route
 from core.errors import InvalidValue
 from tests.support.random_routes import Pen
-from tests.support.slow_route import piece_length, piece_points
+from tests.support.slow_route import points_along
 
 # Steps of the scan for the rear handle over the chord; steps of the scan for each step of the front handle; how far
 # back the scan goes over the chord. A step in which the rear handle moves further than SUSPECT is halved down to
@@ -24,18 +24,6 @@ class Followed:
     rear_cosine: float = 1.0
     front_cosine: float = 1.0
     spare: float = np.inf
-
-
-def points_along(route, s):
-    """Points and tangents (N,) of a route without waypoints at places s (N,), as complex numbers."""
-    ends = np.cumsum([0.0, *map(piece_length, route.pieces)]) - route.start
-    number = np.clip(np.searchsorted(ends, s, side="left") - 1, 0, len(route.pieces) - 1)
-    points = np.empty(len(s), complex)
-    tangents = np.empty(len(s), complex)
-    for k in np.unique(number):
-        here = number == k
-        points[here], tangents[here] = piece_points(route.pieces[k], s[here] - ends[k])
-    return points, tangents
 
 
 def rear_behind(distance, s, chord):

@@ -9,12 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import Arc, Clothoid, Coil, Line
-from tests.support.slow_search import SlowDance, arc_length, head_angle, in_plane, sizes_of
+from tests.support.slow_search import SlowDance, arc_length, head_angle, in_plane, root, sizes_of
 
-# Steps of Newton's towards a handle, then of a bisection if those do not suffice, and the distance that does [m].
-NEWTON_STEPS = 12
-HALVINGS = 60
-CLOSE = 1e-11
+# Part of a chord to which a handle is found along a route of some hundred metres [1].
+CLOSE = 1e-12
 # Longest arc over its chord, where the chord can follow the route at all [1].
 LONGEST = 0.5 * np.pi
 # Nodes on which the direction of a clothoid is summed up over its length, and their weights [1].
@@ -73,6 +71,17 @@ def piece_points(piece, u):
     return first + way + along(on) * bow(ends, beyond), along(on) * np.exp(1j * ends * beyond)
 
 
+def points_along(route, s):
+    """Points and unit tangents (N,) of a route without waypoints at arc lengths s (N,)."""
+    joints = np.cumsum([-route.start, *map(piece_length, route.pieces)])
+    on = np.clip(np.searchsorted(joints, s) - 1, 0, len(route.pieces) - 1)
+    points, tangents = np.empty((2, s.size), dtype=complex)
+    for k in np.unique(on):
+        there = on == k
+        points[there], tangents[there] = piece_points(route.pieces[k], s[there] - joints[k])
+    return points, tangents
+
+
 @dataclass
 class SlowRoute(SlowDance):
     """One dragon on any pieces without waypoints, at 1 m/s; s = 0 is `start` metres from their beginning."""
@@ -88,40 +97,23 @@ class SlowRoute(SlowDance):
     def end(self):
         return sum(map(piece_length, self.pieces)) - self.start
 
-    def points(self, s):
-        """Points and unit tangents (N,) at arc lengths s (N,)."""
-        joints = np.cumsum([-self.start, *map(piece_length, self.pieces)])
-        on = np.clip(np.searchsorted(joints, s) - 1, 0, len(self.pieces) - 1)
-        points, tangents = np.empty((2, s.size), dtype=complex)
-        for k, piece in enumerate(self.pieces):
-            there = on == k
-            if there.any():
-                points[there], tangents[there] = piece_points(piece, s[there] - joints[k])
-        return points, tangents
-
     def behind(self, s, leaders, chord):
         """Arc lengths and points of the handles a chord behind leaders at s."""
-        low = s - LONGEST * chord
-        high = s - chord
-        at = s - chord
-        for step in range(NEWTON_STEPS + HALVINGS):
-            points, tangents = self.points(at)
+
+        def beyond(back):
+            points, tangents = points_along(self, s - back)
             apart = leaders - points
             distance = np.abs(apart)
-            if np.abs(distance - chord).max() < CLOSE:
-                break
-            near = distance < chord
-            high, low = np.where(near, at, high), np.where(near, low, at)
-            slope = np.maximum((apart * tangents.conj()).real / distance, 1e-3)
-            moved = at + (distance - chord) / slope
-            inside = (low < moved) & (moved < high) & (step < NEWTON_STEPS)
-            at = np.where(inside, moved, 0.5 * (low + high))
-        return at, points
+            return distance - chord, np.maximum((apart * tangents.conj()).real / distance, 1e-3)
+
+        nearest = np.full_like(s, chord)
+        at = s - root(beyond, nearest, nearest, LONGEST * nearest, CLOSE)
+        return at, points_along(self, at)[0]
 
     def handles(self, times, benches=None):
         """(T, n + 1, 2) [m]"""
         s = np.asarray(times, dtype=float)
-        rows = [self.points(s)[0]]
+        rows = [points_along(self, s)[0]]
         for chord in self.chords[:benches]:
             s, points = self.behind(s, rows[-1], chord)
             rows.append(points)

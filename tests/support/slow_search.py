@@ -40,20 +40,20 @@ def chord_squared(theta, delta):
     return delta**2 + 4.0 * theta * (theta + delta) * np.sin(0.5 * delta) ** 2
 
 
-def root(rising, guess, low, high):
+def root(rising, guess, low, high, within=LAST_BITS):
     """Zero of a function that rises from low to high: Newton's steps, and the middle if one leaves the bracket.
 
-    rising: its value and its slope; NaN where an end is NaN
+    rising: its value and its slope; within: the last step over the zero [1]; NaN where an end is NaN
     """
     at = np.clip(guess, low, high)
     for _ in range(STEPS_MOST):
         value, slope = rising(at)
         low, high = np.where(value < 0.0, at, low), np.where(value < 0.0, high, at)
         step = value / slope
-        fine = ((low < at - step) & (at - step < high)) | (np.abs(step) <= LAST_BITS * at)
+        fine = ((low < at - step) & (at - step < high)) | (np.abs(step) <= within * at)
         step = np.where(fine, step, at - 0.5 * (low + high))
         at = at - step
-        if not (np.abs(step) > LAST_BITS * at).any():
+        if not (np.abs(step) > within * at).any():
             break
     return at
 
