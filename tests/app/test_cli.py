@@ -423,11 +423,6 @@ def test_serve_on_a_port_that_is_taken_gets_exit_code_2(server, workers):
     assert "Traceback" not in done.stderr
 
 
-def descriptions(words):
-    """English help of the options and arguments of a command."""
-    return [render(one.help).plain for one in HELPS[words].params if one.help]
-
-
 @pytest.mark.parametrize("words", HELPS, ids=" ".join)
 def test_help_prints_every_description_with_its_unit_and_in_chinese_is_whole_and_has_no_english_sentence(words):
     text = " ".join(said(*words, "--help", COLUMNS="1000").split())

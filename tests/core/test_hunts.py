@@ -14,7 +14,7 @@ from tests.support.depth import examples, further
 
 CAMPAIGNS = hunt_encounters, hunt_venues, hunt_contacts, hunt_turns, hunt_clothoids
 # Cases of a small part, of which the first ones are those of every run.
-FEW = 3
+FEW = 6
 MANY = examples(25, 200)
 
 

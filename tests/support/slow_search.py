@@ -171,24 +171,6 @@ class SlowDance:
         ends = [benches_of(handles[:, k : k + 2], self.sides[[k]]) for k in pair]
         return float(nearest(*ends)[0][0])
 
-    def first_touch(self, margin):
-        """Time and pair of the first instant with a separation <= margin, None if there is none."""
-
-        def gaps(times):
-            return self.clearance(times)[0] - margin
-
-        time = 0.0
-        if gaps([time])[0] > 0.0:
-            stop = RUN * self.end()
-            times = np.linspace(0.0, stop, 3 + int(stop / (STEP * self.chords.min())))
-            touching = np.flatnonzero(gaps(times) <= 0.0)
-            look = Samples(gaps, times[: touching[0] + 1] if touching.size else times)
-            if look.values.min() > 0.0:
-                return None
-            k = int(np.argmax(look.values <= 0.0))
-            time = first_time(look.times[k - 1], look.times[k], lambda times: gaps(times) <= 0.0)
-        return time, tuple(self.clearance([time])[1][0])
-
     def dip(self, low, high, pair):
         """Time and value of the least separation of one pair [s, m]."""
         result = minimize_scalar(

@@ -1,4 +1,4 @@
-"""Search: angles, rates, single pairs and marches, against a slow dance that shares no code."""
+"""Search: single pairs and marches; the bottoms of dips: test_clearance.py."""
 
 import pytest
 
@@ -8,32 +8,16 @@ from core.contact.search import ContactSearch, joined
 from core.kernels import Ended
 from core.kernels.results import Dip, Marched
 from tests.support.near import assert_near
-from tests.support.slow_search import SlowDance
 
-SLOW = SlowDance.of(Dragon(30), Spiral())
 # The default dance first touches here, benches 0 and 8, and would have grazed with 0 and 11 before [m of head travel].
 CONTACT = 412.4738376822
 PAIR = (0, 8)
 GRAZING = (0, 11)
-# The bottom of a dip is flat: places in it [m], gaps there [m].
-FLAT = 1e-5
-GAP = 1e-11
 
 
 @pytest.fixture
 def search():
     return ContactSearch(Dragon(30), Spiral(), 0.0)
-
-
-def test_a_pair_turns_at_the_bottom_of_its_dip(search):
-    _, marched = search.march(CONTACT - 0.1, 0.0, start=405.0, dips=True)
-    graze = marched.graze
-    assert graze.pair == GRAZING
-    low = graze.moment - 0.05
-    high = graze.moment + 0.05
-    travel, gap = SLOW.dip(low, high, GRAZING)
-    assert_near(graze.gap, gap, GAP)
-    assert_near(search.bottom(low, high, GRAZING, 1e-10), travel, FLAT)
 
 
 def test_all_pairs_but_the_touching_one_are_clear_and_it_is_followed_again_afterwards(search):
