@@ -1,8 +1,8 @@
 """First contacts, least clearances and verdicts of random dances against a slow search that shares no code with them.
 
 `python -m tests.campaigns.hunt_contacts SEED SECONDS`. Dances are on spirals, on turns and on routes of lines, arcs and
-coils, also from before time 0, with passages and pauses; dragons are uniform or given bench by bench. Half of the
-margins are chosen so that benches only graze, and so meet slowly.
+coils, three in eight on routes with clothoids, also from before time 0, with passages and pauses; dragons are uniform
+or given bench by bench. Half of the margins are chosen so that benches only graze, and so meet slowly.
 """
 
 from functools import partial
@@ -77,6 +77,26 @@ def random_path(rng, dragon):
     return Route(pen.pieces, start=way)
 
 
+def blended_route(rng, dragon):
+    """A line, one or two bends of clothoids and arcs, with ramps of any length or none, and a line."""
+    chord = float(dragon.chords.max())
+    way = float(sum(dragon.chords) + rng.uniform(1.0, 6.0) * chord)
+    pen = Pen(complex(-way))
+    side = float(rng.choice([-1.0, 1.0]))
+    pen.line(way)
+    for _ in range(int(rng.choice([1, 1, 2]))):
+        bend = side / (rng.uniform(0.55, 1.5) * chord)
+        sweep = rng.uniform(1.5, 3.4)
+        ramps = rng.uniform(0.0, 0.9, 2) * (rng.uniform(size=2) < 0.8)  # parts of the sweep, half of which is left
+        turned = [(0.0, bend, 0.5 * ramps[0] * sweep), (bend, bend, (1.0 - 0.5 * ramps.sum()) * sweep)]
+        for first, last, angle in [*turned, (bend, 0.0, 0.5 * ramps[1] * sweep)]:
+            if (length := 2.0 * angle / abs(first + last)) > 1e-2:
+                pen.clothoid(first, last, length)
+        side = -side
+    pen.line(way)
+    return Route(pen.pieces, start=way)
+
+
 def random_passages(rng):
     """No passages, or some with pauses, from time 0 on."""
     if rng.uniform() < 0.6:
@@ -111,11 +131,11 @@ class SlowLook(Samples):
         super().__init__(lambda times: slow.clearance(times)[0], travels)
 
 
-def random_case(seed, case, any_path=random_path):
+def random_case(seed, case):
     """dance, margin, stop, and the slow look at it; raises: BenchDragonError for what core refuses"""
     rng = hunting.generator(seed, case)
     dragon = random_dragon(rng)
-    path = any_path(rng, dragon)
+    path = (blended_route if case % 8 in (0, 5, 7) else random_path)(rng, dragon)
     dance = Dance(dragon, path, 1.0, random_passages(rng))
     is_spiral = isinstance(path, Spiral)
     start = dance.begin - (rng.uniform(0.0, 8.0) if is_spiral and rng.uniform() < 0.3 else 0.0)

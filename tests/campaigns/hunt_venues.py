@@ -12,8 +12,7 @@ import shapely
 
 from core import Area, Dance, Judgement, Outcome, Part, Spiral, Venue, check, venue_clearance
 from tests.campaigns import hunting
-from tests.campaigns.hunt_clothoids import blended_route
-from tests.campaigns.hunt_contacts import GAP, meeting_fault, random_dragon, random_margin
+from tests.campaigns.hunt_contacts import GAP, blended_route, meeting_fault, random_dragon, random_margin
 from tests.support.random_squares import closed
 from tests.support.shared_dances import square
 from tests.support.slow_performance import SlowPart
