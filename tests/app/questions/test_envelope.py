@@ -1,5 +1,6 @@
-"""The ground that benches sweep, over HTTP and from a terminal: the polygons of core, in every form."""
+"""The ground that benches sweep, the polygons of core, in every form."""
 
+import io
 import json
 from dataclasses import replace
 
@@ -11,7 +12,7 @@ from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
 from app.questions.envelope import Envelope, EnvelopeRequest
 from core import Arc, Dance, Dragon, Route, envelope
 from tests.support.asking import dance, written
-from tests.support.command import run, said
+from tests.support.command import said
 
 # Rounds on a circle, which leave a hole.
 RING = {"kind": "arc", "centre": [0, 0], "radius": 5, "start_angle": 0, "sweep": 7}
@@ -32,25 +33,19 @@ def test_several_polygons_are_a_multipolygon():
     assert answer["distance"] is None
 
 
-def test_the_command_writes_the_files_of_the_service_with_the_hole_as_its_own_line(ask, tmp_path):
-    file = written(tmp_path, BODY | {"spectators": SPECTATORS})
-    drawing = tmp_path / "x.dxf"
-    table = tmp_path / "x.json"
-    text = said("envelope", file, "--output", str(drawing), aside=f"{drawing}\n")
-    for words in ("1 polygon, 1 hole, ", f"{ENVELOPE.distance(SPECTATORS):.9f} m"):
-        assert words in text
-    said("envelope", file, "--output", str(table), aside=None)
-    assert table.read_bytes() == ask.file("envelope", BODY, GEOJSON_TYPE)
-    feature = json.loads(table.read_bytes())
+def test_files_have_the_polygon_and_the_hole_as_its_own_line(ask, tmp_path):
+    feature = ask.send("envelope", BODY, GEOJSON_TYPE).json()
     assert (feature["type"], feature["properties"]["excess"]) == ("Feature", ENVELOPE.excess)
     assert feature["geometry"]["coordinates"] == OUTLINE
-    assert drawing.read_bytes() == ask.file("envelope", BODY, DXF_TYPE)
-    document = ezdxf.readfile(drawing)
+    document = ezdxf.read(io.StringIO(ask.file("envelope", BODY, DXF_TYPE).decode()))
     assert (document.units, document.audit().has_errors) == (ezdxf.units.M, False)
     lines = list(document.modelspace())
     assert [(line.dxf.layer, line.closed) for line in lines] == [("ENVELOPE", True), ("ENVELOPE_HOLES", True)]
     outer, hole = (shapely.Polygon([(x, y) for x, y, *_ in line.get_points()]).area for line in lines)
     assert outer - hole == pytest.approx(ENVELOPE.area)
+    table = said("envelope", written(tmp_path, BODY | {"spectators": SPECTATORS}))
+    for words in ("1 polygon, 1 hole, ", f"{ENVELOPE.distance(SPECTATORS):.9f} m"):
+        assert words in table
 
 
 def test_several_dances_have_the_ground_of_each_also_in_files(ask, tmp_path):
@@ -66,8 +61,7 @@ def test_several_dances_have_the_ground_of_each_also_in_files(ask, tmp_path):
     named = [(one["properties"]["dragon"], one["properties"]["dragon_name"]) for one in features]
     assert named == [(0, "low"), (1, None)]
     assert [one["geometry"] for one in features] == [low["envelope"], high["envelope"]]
-    drawing = tmp_path / "two.dxf"
-    done = run("envelope", written(tmp_path, SEVERAL), "--output", str(drawing))
-    assert [one for one in got["dances"] if f"{one['area']:.9f} m2" not in done.stdout] == []
-    assert drawing.read_bytes() == ask.file("envelope", SEVERAL, DXF_TYPE)
-    assert [line.dxf.layer for line in ezdxf.readfile(drawing).modelspace()] == ["ENVELOPE_0", "ENVELOPE_1"]
+    drawing = io.StringIO(ask.file("envelope", SEVERAL, DXF_TYPE).decode())
+    assert [line.dxf.layer for line in ezdxf.read(drawing).modelspace()] == ["ENVELOPE_0", "ENVELOPE_1"]
+    table = said("envelope", written(tmp_path, SEVERAL))
+    assert [one for one in got["dances"] if f"{one['area']:.9f} m2" not in table] == []
