@@ -229,14 +229,7 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
     if decimals is not None and decimals < _decimals_of_flat(values, wanted, max(written, decimals_beside)):
         decimals = None
     if not present:
-        verdict = Rating.UNREADABLE
         notes.append(note("no_numbers", handles=int(known.sum()), kind=note(SHEETS[table.kind])))
-    elif largest > RIGHT and decimals is None:
-        verdict = Rating.WRONG
-    elif present < cells:
-        verdict = Rating.INCOMPLETE
-    else:
-        verdict = Rating.RIGHT if largest <= RIGHT else Rating.ROUNDED
     if has_fewer and decimals == DECIMALS[-1]:
         notes.append(note("vague", number=f"{np.nanmax(values):g}", decimals=decimals))
     missing = cells - present
@@ -248,7 +241,7 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
     return JudgedSheet(
         table,
         workbook,
-        verdict,
+        _rating(present, cells, largest, is_rounded=decimals is not None),
         decimals=None if largest <= RIGHT else decimals,
         written=written,
         digits=digits,
@@ -261,6 +254,17 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
         wanted=wanted,
         notes=notes,
     )
+
+
+def _rating(present: int, cells: int, largest: float, *, is_rounded: bool) -> Rating:
+    """The rating of a sheet. present: of its cells, those with numbers; largest: error of these"""
+    if not present:
+        return Rating.UNREADABLE
+    if largest > RIGHT and not is_rounded:
+        return Rating.WRONG
+    if present < cells:
+        return Rating.INCOMPLETE
+    return Rating.RIGHT if largest <= RIGHT else Rating.ROUNDED
 
 
 def with_errors(judgements: list[JudgedSheet], kinds: set[TableKind]) -> list[JudgedSheet]:

@@ -9,12 +9,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
-from pydantic import Field
 
 import core
 from app.plan.safety_answer import (
     Approach,
-    Assumption,
     FastestCarriers,
     GatePass,
     Ground,
@@ -40,101 +38,37 @@ from app.questions.plan import (
     GATES,
     GATES_MAX,
     PDF_TYPE,
-    GatedDance,
     PlanGate,
     passes_of_gates,
     timing_of_marks,
 )
-from app.wire.dances import PathFields, clock_of, starting
+from app.questions.safety_request import LANES_MAX, LaneBody, SafetySheetRequest, assumptions_of, loose_of
+from app.wire.dances import clock_of, starting
 from app.wire.degrees import Place
-from app.wire.fields import Address, OneLine, Wire, measure
 from app.wire.geojson import GATE, geometry_of
 from app.wire.geojson import LANE as LANE_ROLE
-from app.wire.messages import checked
-from app.wire.numbers import numbers_of
-from app.wire.paths import Point as PointField
-from app.wire.performances import SeveralFields
 from app.wire.question import JSON, UNKNOWN_COST, Command, ListOption, Output, Question, Terms
 from app.wire.readings import dragons_failure_words, failure_words
 from core import Area, FailureKind, InvalidValue, Judgement, Part, Performance
-from core.errors import Given, Parameter, format_bound, format_number, question_about
+from core.errors import Parameter, format_bound, question_about
 from core.language import joined, say
 from core.motion.places import Passing
 from core.motion.trajectory import trajectory
-from core.shapes.engines import Polygons, area_of, free_width, holds_all, lane_rings, merged, widened
+from core.shapes.engines import Polygons, area_of, free_width, holds_all, merged, widened
 from core.shapes.reach import gains
 from core.shapes.rectangles import bench_poses
-from core.values import Floats
 
 if TYPE_CHECKING:
     from app.files.typeset import Face
     from app.plan.ground import GroundMap, SafetyLayers
     from app.plan.safety import SafetyWords
 
-# Most lanes of a sheet, and approaches that it lists.
-LANES_MAX, APPROACHES = 10, 5
-# Most dragons whose numbers of benches stand on a sheet.
-DRAGONS_NAMED = 6
-# Benches that may be let go if the request does not say how many.
-LOOSE = 3
+# Most approaches that a sheet lists.
+APPROACHES = 5
 # Excess of the swept ground, and distance from which on two approaches of benches are at different places [m].
 EXCESS, APART = 0.01, 4.0
 # Distance from which on an approach is none, such as that to the border of an endless plain [m].
 FAR = 1000.0
-
-
-class LaneBody(Wire, strict=True):
-    """A lane to keep free, such as one for ambulances."""
-
-    name: OneLine = Field(min_length=1, max_length=40, description="Its name")
-    points: list[PointField] = measure("m", "Points of its middle line, x and y", min_length=2, max_length=50)
-    width: float = measure("m", "Its width", 3.5, ge=0.5, le=50)
-
-    @classmethod
-    def of_text(cls, text: str) -> Self:
-        """A lane as NAME,WIDTH,X,Y,X,Y,... raises: InvalidValue"""
-        name, *rest = text.split(",")
-        if len(rest) < 5 or len(rest) % 2 == 0 or not name:
-            raise InvalidValue.in_words("lane", "--lane must be NAME,WIDTH,X,Y,X,Y,... [m]", got=Given(text))
-        width, *places = numbers_of("lane", ",".join(rest), float)
-        points = [list(pair) for pair in zip(places[::2], places[1::2], strict=True)]
-        return checked(cls, {"name": name, "width": width, "points": points})
-
-    @property
-    def middle(self) -> Floats:
-        """Points of its middle line (P, 2) [m]."""
-        return np.array(self.points, dtype=np.float64)
-
-    def to_area(self, field: str) -> Area:
-        """The ground of it. raises: InvalidValue"""
-        try:
-            rings = lane_rings(self.middle, self.width)
-            return Area(self.name, tuple(tuple((x, y) for x, y in ring.tolist()) for ring in rings))
-        except (InvalidValue, ValueError) as error:
-            raise InvalidValue(f"{field}.points", "must be a line with a length") from error
-
-
-class SafetySheetRequest(SeveralFields, GatedDance, strict=True):
-    """A dance, or several on one clock, as for /check, and what its sheet assumes and names."""
-
-    lanes: list[LaneBody] = Field(
-        [],
-        max_length=LANES_MAX,
-        fail_fast=True,
-        description="Lanes to keep free, such as those for ambulances; those of the venue follow them",
-    )
-    spectators: float = measure(
-        "m", "Distance at which people stand from all ground that benches may sweep", 1.0, ge=0, le=100
-    )
-    loose: int | None = Field(
-        None, ge=1, description="Number of the last benches that may be let go; default: 3, or all of a shorter dragon"
-    )
-    reaction: float = measure("s", "Time from the call to stop until everybody stands", 2.0, ge=0, le=60)
-    stopper: OneLine = Field("", max_length=80, description="Who stops the dance")
-    date: OneLine = Field("", max_length=40, description="Date of the sheet; empty: a line to fill in")
-    address: Address = Field(
-        "", max_length=500, description="Address of the dance, which stands on the sheet as a code"
-    )
 
 
 def safety_sheet(request: SafetySheetRequest, terms: Terms, form: str = JSON) -> SafetySheet | bytes:
@@ -272,15 +206,10 @@ class _Judged:
 
     def drawn(self, answer: SafetySheet, terms: Terms) -> bytes:
         """The sheet on paper as PDF. raises: TooMuchWork"""
-        from app.files.looks import with_square
         from app.files.typeset import face_for
-        from app.plan.ground import GroundMap, SafetyLayers
-        from app.plan.safety import SafetyWords
-        from app.plan.tables import Json
+        from app.plan.ground import GroundMap
 
         request, performance, venue = self.request, self.performance, self.place.venue
-        clock, several = self.clock, len(performance.parts) > 1
-        dragons = [performance.name_of(k) for k in range(len(performance.parts))] if several else []
         gates = [(one.name, one.x, one.y) for one in (*request.gates, *self.venue_gates)]
         geographic = request.origin_at(self.place) is not None
         grounds = []
@@ -289,20 +218,31 @@ class _Judged:
             grounds.append(
                 GroundMap(part.dance, venue, swept.polygons, self.closed, request.spectators, timing, geographic, gates)
             )
+        layers, words = self._layers(answer), self._words(answer)
+        areas = [area.name for area in venue.areas] if venue else []
+        benches = [name for part in performance.parts for name in part.dance.dragon.names]
+        names = [*areas, *(name for name, *_ in gates), *(name for name, _ in layers.lanes), *benches, *layers.dragons]
+        face = face_for([words.title, request.stopper, *names])
+        return _drawn(performance, words, (grounds, layers), face, terms)
+
+    def _layers(self, answer: SafetySheet) -> SafetyLayers:
+        """What the map of the sheet shows besides the ground."""
+        from app.files.looks import with_square
+        from app.plan.ground import SafetyLayers
+
+        performance = self.performance
+        dragons = [performance.name_of(k) for k in range(len(performance.parts))] if len(performance.parts) > 1 else []
         loose = merged(one.polygons for one in self.loose)
         lanes = [(one.name, [np.array(ring) for ring in one.rings]) for _, one in self.lanes]
         corners = np.concatenate([rings[0] for rings in (*self.closed, *loose)])
-        box = with_square(venue, corners.min(axis=0), corners.max(axis=0))
-        layers = SafetyLayers(loose, lanes, box, dragons, [one.point for one in answer.approaches])
-        title = request.title or say("Bench dragon")
-        areas = [area.name for area in venue.areas] if venue else []
-        benches = [name for part in performance.parts for name in part.dance.dragon.names]
-        names = [*areas, *(name for name, *_ in gates), *(name for name, _ in lanes), *benches, *dragons]
-        face = face_for([title, request.stopper, *names])
+        box = with_square(self.place.venue, corners.min(axis=0), corners.max(axis=0))
+        return SafetyLayers(loose, lanes, box, dragons, [one.point for one in answer.approaches])
 
-        def table(heading: str, columns: list[str], rows: list[list[str]], wide: list[float], left: list[int]) -> Json:
-            return {"heading": heading, "columns": columns, "rows": rows, "widths": wide, "left": left}
+    def _words(self, answer: SafetySheet) -> SafetyWords:
+        """The words of the sheet."""
+        from app.plan.safety import SafetyWords
 
+        request, performance, clock = self.request, self.performance, self.clock
         near = [
             [
                 str(number), one.sentence, f"{one.distance:.2f}", clock.words(one.time),
@@ -314,32 +254,31 @@ class _Judged:
         span_words = {"start": clock.words(answer.start), "stop": clock.words(answer.stop)}
         count = sum(part.dance.dragon.benches for part in performance.parts)
         subtitle = say("Safety sheet: {benches} benches, from {start} to {stop}", benches=count, **span_words)
-        if several:
+        if len(performance.parts) > 1:
             subtitle = say(
                 "Safety sheet: {dance_count} dragons, {benches} benches, from {start} to {stop}",
                 dance_count=len(performance.parts), benches=count, **span_words,
             )  # fmt: skip
         given = {"stray", "hole", "pin"} & request.model_fields_set
         verdict, known = answer.sentences
-        words = SafetyWords(
-            title=title,
+        return SafetyWords(
+            title=request.title or say("Bench dragon"),
             subtitle=subtitle,
             verdict=answer.verdict.value,
             sentences=[verdict, joined([known, *cautions(answer, nobody_strays=not (given or request.total_stray))])],
             date=request.date,
             address=request.address,
-            approaches=table(
+            approaches=_table(
                 say("Nearest approaches"), ["", say("what comes near"), say("gap [m]"), say("at"), "x, y [m]"], near,
-                [0.25, 2.3, 0.8, 0.9, 1.1], [0, 1],
+                [0.25, 2.3, 0.8, 0.9, 1.1],
             ),
-            assumptions=table(
-                say("What this rests on"), [say("what"), say("value"), say("from")], rests, [2.0, 1.4, 0.9], [0, 1]
+            assumptions=_table(
+                say("What this rests on"), [say("what"), say("value"), say("from")], rests, [2.0, 1.4, 0.9]
             ),
             left=parts_on_ground(answer, performance, clock, request.spectators),
             right=[part_on_stopping(answer, performance, clock, request.stopper)],
             paper=request.paper,
         )  # fmt: skip
-        return _drawn(performance, words, (grounds, layers), face, terms)
 
     @property
     def clock(self) -> TimeFormat:
@@ -470,6 +409,11 @@ class _Judged:
         )  # fmt: skip
 
 
+def _table(heading: str, columns: list[str], rows: list[list[str]], widths: list[float]) -> dict[str, Any]:
+    """A table of the sheet, whose first two columns begin at the left."""
+    return {"heading": heading, "columns": columns, "rows": rows, "widths": widths, "left": [0, 1]}
+
+
 @question_about("performance", Performance, "the safety sheet was not drawn")
 def _drawn(
     performance: Performance,
@@ -489,57 +433,6 @@ def _refuse_more_than(loose: int | None, dragons: Sequence[core.Dragon]) -> None
     least = min(dragon.benches for dragon in dragons)
     if loose is not None and loose > least:
         raise InvalidValue("loose", "must be at most {most}, all benches of the dragon", got=loose, most=least)
-
-
-def loose_of(request: SafetySheetRequest, dragon: core.Dragon) -> int:
-    """Number of the last benches that may be let go."""
-    return request.loose or min(LOOSE, dragon.benches)
-
-
-def assumptions_of(request: SafetySheetRequest, dragons: Sequence[core.Dragon]) -> list[Assumption]:
-    """What a sheet rests on, and which of it the request gives."""
-    given = request.model_fields_set
-    bodies: Sequence[PathFields] = request.dances or [request]
-    own = {name for one in bodies for name in one.dragon.model_fields_set}
-    moves = {name for one in bodies for name in one.model_fields_set}
-
-    def each(values: Sequence[float]) -> str:
-        """The value, or the least and the largest of several."""
-        low, high = format_number(min(values)), format_number(max(values))
-        return low if low == high else say("{low} to {high}", low=low, high=high)
-
-    lengths = [float(one) for dragon in dragons for one in dragon.lengths]
-    sizes = say("{low} to {high} m long", low=format_number(min(lengths)), high=format_number(max(lengths)))
-    speed = say("no limit") if request.speed_limit is None else f"{format_number(request.speed_limit)} m/s"
-    streets = say("none given") if request.venue is None else say("as drawn")
-    benches = " + ".join(str(dragon.benches) for dragon in dragons[:DRAGONS_NAMED])
-    if len(dragons) > DRAGONS_NAMED:
-        benches += " + …"
-    rows = [
-        (say("benches"), benches, bool(own & {"benches", "lengths"})),
-        (say("sizes of benches"), sizes, bool(own - {"benches", "names"})),
-        (
-            say("speed of the head"),
-            f"{each([one.head_speed for one in bodies])} m/s",
-            bool(moves & {"head_speed", "passages", "beats"}),
-        ),
-        (
-            say("people stray at most"),
-            f"{format_number(request.total_stray or 0.0)} m",
-            bool(given & {"stray", "hole", "pin"}),
-        ),
-        (say("benches keep apart"), f"{format_number(request.margin)} m", "margin" in given),
-        (say("speed limit"), speed, "speed_limit" in given),
-        (say("square, streets and obstacles"), streets, request.venue is not None),
-        (say("people stand back"), f"{format_number(request.spectators)} m", "spectators" in given),
-        (
-            say("last benches that may be let go"),
-            str(max(loose_of(request, dragon) for dragon in dragons)),
-            "loose" in given,
-        ),
-        (say("time to stop"), f"{format_number(request.reaction)} s", "reaction" in given),
-    ]
-    return [Assumption(label=label, text=text, yours=yours) for label, text, yours in rows]
 
 
 def _cost(request: SafetySheetRequest, form: str = JSON) -> float:

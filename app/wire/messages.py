@@ -117,6 +117,16 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
             return f"{rule}: {why}".removesuffix(": "), values | hint
         case "int_type" | "int_parsing" | "int_from_float" | "int_parsing_size":
             return "must be a whole number", values
+        case "list_type":
+            values["got"] = Given(value, words)
+            return "must be a list of numbers [{unit}]" if unit else "must be a list", values
+    return _rule_of_shape(error, thing, values)
+
+
+def _rule_of_shape(error: Mapping[str, Any], thing: str, values: dict[str, Value]) -> tuple[str, dict[str, Value]]:
+    """The rule that a field breaks which is no number, and its values. values: of all rules"""
+    value, limits = error["input"], error.get("ctx", {})
+    match error["type"]:
         case "string_type":
             return "must be a string", values
         case "string_pattern_mismatch":
@@ -130,9 +140,6 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
             return rule, {}
         case "model_type" | "model_attributes_type" | "dict_type":
             return "must be {thing}", values | {"thing": thing}
-        case "list_type":
-            values["got"] = Given(value, words)
-            return "must be a list of numbers [{unit}]" if unit else "must be a list", values
         case "too_short":
             least, count = limits["min_length"], limits["actual_length"]
             rule = "must have at least {least} entry" if least == 1 else "must have at least {least} entries"
