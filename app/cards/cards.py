@@ -20,7 +20,7 @@ from app.files.typeset import Face, measured, typeset
 from app.maps.marks import line_of, mark_name
 from app.plan.drawing import MapDrawing, Scale, look, turned_by
 from app.plan.ground import CIRCLE, IN_BENCH, draw_arrows, draw_venue, thinned
-from app.plan.paper import Paper, PaperName, Places
+from app.plan.paper import Paper, PaperName, Places, box_about
 from core import Budget, Dance, Venue
 from core.language import joined, say
 from core.people.cards import Card, Cue
@@ -160,10 +160,12 @@ def _picture(sheets: CardSheets, card: Card, wide: float, high: float) -> dict[s
     drawing.line(track, 6, 1.2, BLUE)
     draw_arrows(drawing, track, apart=ARROWS)
     _draw_bench(drawing, sheets.dance, card)
-    _draw_moments(drawing, card.cues, on_track)
-    drawing.places.take(on_track)
-    _draw_marks(drawing, sheets, (bench.start.s, bench.done.s))
-    draw_venue(drawing, sheets.venue, small=True)
+    way = Places()
+    way.take(on_track)
+    _draw_marks(drawing, sheets, (bench.start.s, bench.done.s), way)
+    draw_venue(drawing, sheets.venue, small=True, off=way)
+    _draw_landmarks(drawing, sheets, way)
+    _draw_moments(drawing, card.cues, way)
     return {
         **drawing.to_json(),
         "alt": say("Map of the way of your front handle, with the number of each cue"),
@@ -204,16 +206,15 @@ def _arrow(drawing: MapDrawing, track: Floats) -> tuple[float, float]:
     return x - ARROW_IN_BOX[0], top - y - ARROW_IN_BOX[1]
 
 
-def _draw_moments(drawing: MapDrawing, cues: Sequence[Cue], on_track: Floats) -> None:
-    """Draw a dot for each cue, and its number in a circle, which covers no other one, and not the track if that can
+def _draw_moments(drawing: MapDrawing, cues: Sequence[Cue], way: Places) -> None:
+    """Draw a dot for each cue, and its number in a circle, which covers no other one, and not the way if that can
     be; at the dot itself if there is no other place."""
-    wide, space, way = 2.0 * MOMENT, 2.0 * (MOMENT + BESIDE), Places()
-    way.take(on_track)
+    wide, space = 2.0 * MOMENT, 2.0 * (MOMENT + BESIDE)
     for number, cue in enumerate(cues, start=1):
         at = drawing.scale.on_paper(np.array([cue.x, cue.y]))
         drawing.shape([at + DOT * CIRCLE], look(VERMILION), 8)
         near = [at + away * one for away in AWAY for one in AROUND_DOT]
-        free = [(x, y) for x, y in near if way.is_free(_box(x, y, space))]
+        free = [(x, y) for x, y in near if way.is_free(box_about(x, y, space, space))]
         place = drawing.places.first_free(wide + 0.3, wide + 0.3, [*free, *near], drawing.room)
         middle = at if place is None else np.array(place)
         drawing.line(np.stack([at, middle]), 7, 0.4, VERMILION)
@@ -222,12 +223,18 @@ def _draw_moments(drawing: MapDrawing, cues: Sequence[Cue], on_track: Floats) ->
         drawing.write(str(number), x, y, NUMBER_TYPE, bold=True)
 
 
-def _box(x: float, y: float, wide: float) -> tuple[float, float, float, float]:
-    half = 0.5 * wide
-    return x - half, y - half, x + half, y + half
+def _draw_landmarks(drawing: MapDrawing, sheets: CardSheets, way: Places) -> None:
+    """Name the landmarks of the words, such as gates, that are no things of the square, where there is room."""
+    things = {area.name for area in sheets.venue.areas} if sheets.venue else ()
+    for name, place in sheets.words.landmarks:
+        if name not in things:
+            x, y = drawing.scale.on_paper(np.array(place)).tolist()
+            beside = 0.5 * drawing.width(name, NAME_TYPE) + 1.0
+            places = [(x + beside, y), (x - beside, y), (x, y + 2.5), (x, y - 2.5)]
+            drawing.label(name, NAME_TYPE, places, off=way)
 
 
-def _draw_marks(drawing: MapDrawing, sheets: CardSheets, places: Sequence[float]) -> None:
+def _draw_marks(drawing: MapDrawing, sheets: CardSheets, places: Sequence[float], way: Places) -> None:
     """Draw a cross at the chalk mark nearest to each of these places along the path, with its name where room is."""
     chalk, path = sheets.words.chalk, sheets.dance.path
     low, high = path.drawn_between(min(chalk.first, path.begin), path.end)
@@ -238,4 +245,4 @@ def _draw_marks(drawing: MapDrawing, sheets: CardSheets, places: Sequence[float]
         x, y = at.tolist()
         strokes = [at + CROSS * np.array([(-1.0, side), (1.0, -side)]) for side in (1.0, -1.0)]
         drawing.shape(strokes, look(edge="black", width=0.9), 8, "")
-        drawing.label(f"{mark_name(mark)} m", NAME_TYPE, [(x + dx, y + dy) for dx, dy in NEAR_CROSS])
+        drawing.label(f"{mark_name(mark)} m", NAME_TYPE, [(x + dx, y + dy) for dx, dy in NEAR_CROSS], off=way)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
 
-from app.maps.marks import first_mark, mark_name
+from app.maps.marks import first_mark, mark_name, marks_before
 from app.plan.timing import TimeFormat
 from core import Dance
 from core.language import Language, Listed, counted, phrase, say, sense, speaking
@@ -80,21 +80,24 @@ def side_words(met: Meeting) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Chalk:
-    """Chalk marks along the path: s of mark 0 [m], their spacing [m], and the length of a step [m]."""
+    """Chalk marks along the path: s of mark 0 [m], the last mark by its length from there [m], their spacing [m], and
+    the length of a step [m]."""
 
     first: float
+    last: float
     spacing: float
     step: float
 
     @classmethod
-    def of(cls, dance: Dance, tail: float, spacing: float, step: float) -> Chalk:
-        """The marks of a dance whose tail starts at a place [m], as on its plan."""
-        return cls(first_mark(dance, tail, spacing), spacing, step)
+    def of(cls, dance: Dance, ends: Sequence[float], spacing: float, step: float) -> Chalk:
+        """The marks of a dance, as on its plan. ends: s of the tail at its start and of the head at its stop [m]"""
+        first = first_mark(dance, ends[0], spacing)
+        return cls(first, spacing * marks_before(ends[1] - first, spacing), spacing, step)
 
     def nearest(self, s: float) -> tuple[float, float]:
         """The mark nearest to a place on the path, by its length from mark 0 [m], and how far the place is past it [m];
         before it: < 0."""
-        mark = self.spacing * math.floor((s - self.first) / self.spacing + 0.5)
+        mark = min(self.spacing * math.floor((s - self.first) / self.spacing + 0.5), self.last)
         return mark, s - self.first - mark
 
     def steps(self, past: float) -> int:
@@ -141,7 +144,7 @@ class CardWords:
     def neighbours(self, ahead: int | None, behind: int | None) -> str:
         """Who is before and behind a bench; None: nobody.
 
-        >>> words = CardWords(("", "Li"), TimeFormat(), Chalk(0.0, 5.0, 0.75), False)
+        >>> words = CardWords(("", "Li"), TimeFormat(), Chalk(0.0, 100.0, 5.0, 0.75), False)
         >>> words.neighbours(0, 1)
         'Before you: 0 (head).  Behind you: 1 Li.'
         """
@@ -170,7 +173,7 @@ class CardWords:
     def turn(self, turn: Turning) -> str:
         """A turn: around a thing that has a name, or towards one, or to a point of the compass; and where it begins.
 
-        >>> words = CardWords((), TimeFormat(), Chalk(0.0, 5.0, 0.75), False, landmarks=[("well", (0.0, 2.0))])
+        >>> words = CardWords((), TimeFormat(), Chalk(0.0, 100.0, 5.0, 0.75), False, landmarks=[("well", (0.0, 2.0))])
         >>> words.turn(Turning(0.0, 3.0, 19.0, 3.1, 3.1, ((0.0, 0.0), (2.0, 2.0), (0.0, 4.0))))
         'Near mark 20 m: turn back to the left around “well”.'
         """

@@ -49,6 +49,11 @@ def first_mark(dance: Dance, tail: float, spacing: float) -> float:
     return spacing * math.floor(tail / spacing) if begin is None else begin
 
 
+def marks_before(length: float, spacing: float) -> int:
+    """How many marks behind mark 0 stand on a length from there [m]."""
+    return int(length / spacing + 1e-9)
+
+
 def mark_name(s: float) -> str:
     """Name of the mark at a length along the path from the first one [m], to write beside it on the ground."""
     return f"{round(s, 3):g}"
@@ -62,7 +67,7 @@ def marks_of(dance: Dance, start: float, stop: float, spacing: float) -> Marks:
     tail, head = float(handle_places(dance, [start])[0, -1]), float(handle_places(dance, [stop])[0, 0])
     first = first_mark(dance, tail, spacing)
     low = first + spacing * np.floor((tail - first) / spacing)
-    count = int((head - low) / spacing + 1e-9) + 1
+    count = marks_before(head - low, spacing) + 1
     check_limit("spacing", "marks must be at most {most} here", count, MARKS_MAX, "set them further apart")
     s = low + spacing * np.arange(count)
     return Marks(spacing, first, s, dance.path.position(s))

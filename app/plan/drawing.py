@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from app.files.typeset import POINT, Face
-from app.plan.paper import PAPERS, Box, Paper, PaperName, Places
+from app.plan.paper import PAPERS, Box, Paper, PaperName, Places, box_about
 from core import Budget, InvalidValue
 from core.errors import quantities
 from core.values import Floats
@@ -160,10 +160,17 @@ class MapDrawing:
         left, _, _, top = self.room
         self.texts.append((order, {"words": words, "x": x - left, "y": top - y, "size": size, **look}))
 
-    def label(self, words: str, size: float, places: Iterable[Sequence[float]], **more: Any) -> bool:
-        """Write text at the first of the places where it is inside the room and overlaps nothing; False: none."""
+    def label(
+        self, words: str, size: float, places: Iterable[Sequence[float]], off: Places | None = None, **more: Any
+    ) -> bool:
+        """Write text at the first of the places where it is inside the room and overlaps nothing; False: none.
+
+        off: what it keeps off besides
+        """
         self.budget.look()
         wide, high = self.width(words, size, more.get("bold", False)) + 0.6, size * POINT + 0.4
+        if off is not None:
+            places = [(x, y) for x, y in places if off.is_free(box_about(x, y, wide, high))]
         place = self.places.first_free(wide, high, places, self.room)
         if place is not None:
             self.write(words, *place, size, **more)

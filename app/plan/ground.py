@@ -184,10 +184,11 @@ def _draw_coordinates(drawing: MapDrawing) -> None:
                 drawing.places.take(np.array(box))
 
 
-def draw_venue(drawing: MapDrawing, venue: Venue | None, *, small: bool = False) -> None:
+def draw_venue(drawing: MapDrawing, venue: Venue | None, *, small: bool = False, off: Places | None = None) -> None:
     """Draw the square and its obstacles, with their names where there is room.
 
     small: True for thin lines, whole up to the edge of the map, and a square without its name
+    off: what names keep off besides
     """
     if venue is None:
         return
@@ -205,7 +206,7 @@ def draw_venue(drawing: MapDrawing, venue: Venue | None, *, small: bool = False)
         beside = 0.5 * drawing.width(area.name, NAME_TYPE) + 1.0
         wide = 2.0 * beside < right - left and high - low > 4.0
         around = [(right + beside, y), (left - beside, y), (x, high + 2.0), (x, low - 2.0)]
-        drawing.label(area.name, NAME_TYPE, [(x, y), *around] if wide else around, on_paper=wide)
+        drawing.label(area.name, NAME_TYPE, [(x, y), *around] if wide else around, off, on_paper=wide)
         drawing.places.take(np.array([left, low, right, high]))
     if small:
         return
@@ -375,7 +376,7 @@ def legend_of_safety(drawing: MapDrawing, ground: GroundMap, layers: SafetyLayer
     path = say("path of each dragon, in its own colour") if layers.dragons else say("path of the handles")
     rows = [
         (AREA, IN_SWEPT, say("ground swept by benches")),
-        (AREA, IN_CLEAR, say("people stay out of it")),
+        (AREA, IN_CLEAR, say("people stay out, {ground.width:g} m", ground=ground)),
         (AREA, IN_LOOSE, say("reach of the last benches, let go")),
         (LINE, look(edge=BLUE, width=0.9), path),
     ]

@@ -37,6 +37,11 @@ class Paper:
         return self.margin, self.margin + self.block, self.width - self.margin, self.height - self.margin
 
 
+def box_about(x: float, y: float, wide: float, high: float) -> Box:
+    """Left, bottom, right and top of a box about a point."""
+    return x - 0.5 * wide, y - 0.5 * high, x + 0.5 * wide, y + 0.5 * high
+
+
 class Places:
     """Where text may stand. State: boxes that are taken, each in all squares of CELL that it reaches."""
 
@@ -64,7 +69,7 @@ class Places:
         """The first place where a text of that size about it is inside the room and overlaps nothing; it is taken."""
         left, low, right, top = room
         for x, y in places:
-            box = x - 0.5 * wide, y - 0.5 * high, x + 0.5 * wide, y + 0.5 * high
+            box = box_about(x, y, wide, high)
             inside = box[0] > left and box[1] > low and box[2] < right and box[3] < top
             if inside and self.is_free(box):
                 self.take(np.array(box))

@@ -22,6 +22,9 @@ from app.plan.timing import TimeFormat, points_of
 from core.language import say
 from core.values import Floats
 
+# Most corners of a square and of another thing that stand in a table, and most rows of it.
+SQUARE_CORNERS, THING_CORNERS, THINGS_MOST = 16, 6, 100
+
 
 @dataclass(frozen=True, slots=True)
 class Plan:
@@ -94,7 +97,7 @@ def _map(plan: Plan, title: Title, subtitle: str, drawing: MapDrawing, *shown: b
 def _tables(plan: Plan, paper: Paper) -> Json:
     """The sheets with tables."""
     block = plan.title.sheet(say("Points to paint, and times"), paper)
-    tables = _events(plan), _gates(plan), _benches(plan), _marks(plan), _points(plan)
+    tables = _events(plan), _gates(plan), _benches(plan), _marks(plan), _points(plan), _things(plan)
     return tables_sheet(plan.face, block, tables, _notes(plan))
 
 
@@ -162,6 +165,20 @@ def _points(plan: Plan) -> PlanTable:
         for name, values in zip(marks.names, points_of(ground.dance, marks), strict=True)
     ]
     return PlanTable(say("Points to paint"), columns[: len(rows[0])], rows)
+
+
+def _things(plan: Plan) -> PlanTable:
+    """Where to measure from: the corners of what has few, and the middles of the rest."""
+    rows = list[list[str]]()
+    venue = plan.ground.venue
+    for area in venue.areas if venue else ():
+        most = SQUARE_CORNERS if venue and area is venue.square else THING_CORNERS
+        corners = np.array(area.rings[0][:-1])
+        middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
+        for x, y in corners if len(corners) <= most else [middle]:
+            rows.append([area.name, f"{x:.3f}", f"{y:.3f}"])
+    columns = [say("corner, or middle if round"), "x [m]", "y [m]"]
+    return PlanTable(say("Where things stand"), columns, rows[:THINGS_MOST], frozenset({0}))
 
 
 def _gates(plan: Plan) -> PlanTable:

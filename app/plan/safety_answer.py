@@ -73,6 +73,7 @@ class Lane(Answer):
         description="Times at which benches are in it, those of people who stray included, dragon by dragon"
     )
     total: float = measure("s", "Time during which any bench is in it")
+    in_loose_reach: bool = Field(description="The last benches can reach it when they are let go")
 
 
 class GatePass(Answer):

@@ -93,7 +93,7 @@ def _ground_words(answer: SafetySheet, spectators: float) -> list[str]:
                 "The last {count} benches, let go, come at most {reach} m from the front handle of the first of them.",
                 reach=format_bound(tail.reach, 1, up=True)),
         *([say("That is beyond the line behind which people stand: whoever stands within the dotted line of the map "
-               "can be hit if they let go.")] if tail.beyond_spectators else []),
+               "can be hit if they let go, and nobody behind it.")] if tail.beyond_spectators else []),
         say("Nothing is counted on to stop them, neither walls nor other benches."),
     ]  # fmt: skip
 
@@ -119,7 +119,12 @@ def _gate_words(answer: SafetySheet, performance: core.Performance, clock: TimeF
 
 
 def lane_words(lane: Lane, clock: TimeFormat) -> str:
-    """What is known of a lane, in a sentence."""
+    """What is known of a lane, in sentences."""
+    loose = [say("The last benches, let go, can reach it.")] if lane.in_loose_reach else []
+    return joined([_stays_words(lane, clock), *loose])
+
+
+def _stays_words(lane: Lane, clock: TimeFormat) -> str:
     name, width = lane.name, format_number(lane.width)
     if not lane.stays:
         return say("{name}, {width} m wide: no bench is ever in it.", name=name, width=width)

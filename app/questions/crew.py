@@ -214,7 +214,7 @@ def crew(request: CrewRequest, terms: Terms, form: str = JSON) -> Crew | bytes:
     start, stop = dance.span(request.start, request.stop)
     ends = handle_places(dance, [start, stop], budget=terms.budget)
     clock = TimeFormat(clock_of(request, dance), request.music)
-    chalk = Chalk.of(dance, float(ends[0, -1]), request.spacing, 0.75)
+    chalk = Chalk.of(dance, [ends[0, -1], ends[1, 0]], request.spacing, 0.75)
     words = CardWords(dance.dragon.names, clock, chalk, False)
     places = _places(request, dance, float(ends[0, -1]), float(ends[1, 0]), chalk)
     rules = Relief(request.spares, request.shift, [s for s, _ in places], request.rest)

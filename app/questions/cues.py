@@ -142,7 +142,7 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
         _refuse_equal_names(dance.dragon, f"dances.{k}.")
         span: dict[str, Any] = {"start": request.start, "stop": request.stop, "budget": terms.budget}
         own = core.bench_cues(performance, benches, dragon=k, reach=request.reach, **span)
-        chalk = _chalk(request, dance, performance.parts[k].own_span(start, stop)[0], terms)
+        chalk = _chalk(request, dance, performance.parts[k].own_span(start, stop), terms)
         clock = TimeFormat(start_clock, parts[k].music, music_begin=parts[k].delay)
         words = CardWords(dance.dragon.names, clock, chalk, geographic, k, dragons, _landmarks(request, place))
         decks.append(([card_of(one) for one in own], words))
@@ -165,14 +165,14 @@ def _refuse_many(count: int) -> None:
         raise TooLarge.in_words("last_bench", rule, got=count, most=FOLLOWED_MAX)
 
 
-def _chalk(request: CuesRequest, dance: Dance, start: float, terms: Terms) -> Chalk:
-    """The chalk marks of a dance that starts at a time [s]."""
-    tail = float(handle_places(dance, [start], budget=terms.budget)[0, -1])
-    return Chalk.of(dance, tail, request.spacing, request.step_length)
+def _chalk(request: CuesRequest, dance: Dance, span: tuple[float, float], terms: Terms) -> Chalk:
+    """The chalk marks of a dance from start to stop [s]."""
+    places = handle_places(dance, span, budget=terms.budget)
+    return Chalk.of(dance, [places[0, -1], places[1, 0]], request.spacing, request.step_length)
 
 
 def _words(request: CuesRequest, dance: Dance, place: Place, terms: Terms) -> CardWords:
-    chalk = _chalk(request, dance, dance.span(request.start, request.stop)[0], terms)
+    chalk = _chalk(request, dance, dance.span(request.start, request.stop), terms)
     clock = TimeFormat(clock_of(request, dance), request.music)
     geographic = request.origin_at(place) is not None
     return CardWords(dance.dragon.names, clock, chalk, geographic, landmarks=_landmarks(request, place))

@@ -377,7 +377,10 @@ class _Judged:
             each = core.stays(self.performance, area, stray=stray, start=self.start, stop=self.stop, budget=budget)
             stays = [LaneStay.from_result(one, dragon=k) for k, found in enumerate(each) for one in found.stays]
         total = sum(end - begin for begin, end in together([(one.begin, one.end) for one in stays]))
-        return Lane(name=body.name, width=body.width, free_width=free, stays=stays, total=total)
+        reached = free_width(merged(one.polygons for one in self.loose), body.middle, body.width) < body.width
+        return Lane(
+            name=body.name, width=body.width, free_width=free, stays=stays, total=total, in_loose_reach=reached
+        )  # fmt: skip
 
     def _gates(self, terms: Terms) -> list[GatePass]:
         dances = [part.dance for part in self.performance.parts]

@@ -100,7 +100,7 @@ def test_all_that_is_promised_can_be_found_as_words(pages):
     # The dragon is 2.86 + 5 x 1.65 = 11.11 m long, and goes the 28.89 m to the end at 1 m/s.
     ends = "the dance begins, head at 11.1 m 0:11.1|the dance ends, head at 40.0 m 0:40.0"
     # The tail is 11.11 s behind the head, and at the end of the dance 11.11 m before it.
-    rows = "25 0:25.0 0:36.1|30 0:30.0 –|30 30.000 0.000"
+    rows = "25 0:25.0 0:36.1|30 0:30.0 –|30 30.000 0.000|kiosk 26.000 4.000"
     assert [word for word in f"{ends}|{rows}".split("|") if word not in texts[4]] == []
 
 
