@@ -1,4 +1,4 @@
-"""The safety sheet: each number again by plain code from the trajectory, its words, and its page opened by another program."""
+"""The safety sheet: each number again by plain code from the trajectory, its words, and its page opened again."""
 
 import json
 import re
@@ -201,7 +201,7 @@ def test_what_is_assumed_is_told_from_what_is_given(ask):
 
 
 @pytest.mark.parametrize(
-    ("more", "verdict", "words"),
+    "more, verdict, words",
     [
         ({}, "passes", "It can be danced"),
         ({"speed_limit": 0.5}, "fails", "It cannot be danced like this"),
@@ -218,7 +218,7 @@ def test_the_verdict_is_said_in_two_sentences(ask, more, verdict, words):
 
 
 @pytest.mark.parametrize(
-    ("more", "expected"),
+    "more, expected",
     [
         ({"loose": 6}, "/loose 6 5"),
         ({"lanes": [{"name": "a", "points": [[0, 0], [0, 0]]}]}, "/lanes/0/points line"),
@@ -253,7 +253,7 @@ def test_the_page_has_its_words_in_order_a_map_to_scale_and_a_code_that_a_phone_
     assert data == ask.file("safety-sheet", body, PDF_TYPE)
 
 
-@pytest.mark.parametrize(("paper", "size"), [("A4", (210, 297)), ("A3", (297, 420))])
+@pytest.mark.parametrize("paper, size", [("A4", (210, 297)), ("A3", (297, 420))])
 def test_the_scale_on_the_sheet_is_true_to_two_tenths_of_a_millimetre(ask, paper, size):
     (page,) = pages_of(ask.file("safety-sheet", BODY | {"paper": paper}, PDF_TYPE))
     assert page.get_size() == pytest.approx([side * 72 / 25.4 for side in size], abs=0.01)
