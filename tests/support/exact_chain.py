@@ -1,12 +1,13 @@
-"""Chains and gaps to 50 digits: a second solution of the kernels' model, which shares only names of columns with core.
+"""Chains and gaps to 50 digits: a second solution of the kernels' model, which shares with core only names of columns,
+and the equations of a coil in core/proof.
 
 The doubles of a dragon, a spiral's growth and the table of a route are taken as exact, all else is python-flint's ball
 arithmetic at 200 bits, of which the rounding of this file itself takes a few. Next handles are found in doubles, then
 by Newton's iteration.
 """
 
-import math
 from bisect import bisect_left
+from functools import partial
 from itertools import product
 
 import flint
@@ -14,6 +15,7 @@ import numpy as np
 from flint import acb, arb
 
 from core.kernels import constants as c
+from core.proof.chain import coil_arc, coil_theta, slopes, squared_chord
 from tests.support.slow_search import next_delta as nearly_delta
 
 BITS = 200
@@ -41,29 +43,21 @@ def direction(angle):
     return acb(angle.cos(), angle.sin())
 
 
-def spiral_place(theta):
-    """Arc length from the centre, in units of growth."""
-    return (theta * (1 + theta * theta).sqrt() + theta.asinh()) / 2
+# Arc length from the centre, in units of growth; negative angles have negative lengths.
+spiral_place = partial(coil_arc, arb(1))
 
 
 def next_delta(theta, reach):
     """The first root of delta^2 + 4 theta (theta + delta) sin^2(delta / 2) = reach^2."""
     root = arb(float(nearly_delta(np.array([float(theta)]), float(reach))[0]))
     for _ in range(NEWTON_STEPS):
-        sine = (root / 2).sin()
-        cosine = (root / 2).cos()
-        value = root**2 + 4 * theta * (theta + root) * sine**2 - reach**2
-        slope = 2 * root + 4 * theta * sine**2 + 4 * theta * (theta + root) * sine * cosine
-        root = middle(root - value / slope)
+        root = middle(root - (squared_chord(theta, root) - reach**2) / slopes(theta, root)[1])
     return root
 
 
 def spiral_angle(arc):
-    """The angle at an arc length from the centre; negative lengths have negative angles."""
-    at = arb(math.copysign(math.sqrt(2.0 * abs(float(arc))), float(arc)))
-    for _ in range(ROUTE_STEPS):
-        at = middle(at - (spiral_place(at) - arc) / (1 + at * at).sqrt())
-    return at
+    """The angle at an arc length from the centre."""
+    return middle(coil_theta(arb(1), arc))
 
 
 def angles_behind(head, growth, chords):
