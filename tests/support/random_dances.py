@@ -4,6 +4,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 from core import Dance, Dragon, InvalidValue, Spiral
+from tests.campaigns.hunt_contacts import random_dragon
 from tests.support.slow_search import SlowDance
 
 DRAGONS = st.one_of(
@@ -27,20 +28,6 @@ def stands(dragon, spiral):
 DANCES = st.tuples(DRAGONS, SPIRALS).filter(lambda dance: stands(*dance))
 
 
-def random_dragon(rng, bench_by_bench):
-    benches = int(rng.choice([3, 4, 6, 10, 20, 40]))
-    chord = 10 ** rng.uniform(-0.3, 0.4)
-    overhang = rng.choice([0.0, rng.uniform(0.0, 0.3)])
-    head = chord * 10 ** rng.uniform(-0.3, 0.3)
-    width = 10 ** rng.uniform(-1.5, -0.3)
-    if not bench_by_bench:
-        return Dragon(benches, head + 2 * overhang, chord + 2 * overhang, width, overhang)
-    chords = np.where(rng.random(benches) < 0.5, chord, chord * 10 ** rng.uniform(-0.3, 0.3, benches))
-    chords[int(rng.integers(1, benches + 1)) :] = chord
-    widths = width * rng.choice([1.0, 2.0], benches)
-    return Dragon.of(chords + 2 * overhang, widths, np.full(benches, overhang))
-
-
 def unlike_dance(rng):
     """A few benches of any lengths on a spiral of any pitch."""
     benches = int(rng.integers(1, 8))
@@ -48,11 +35,11 @@ def unlike_dance(rng):
     return Dance(dragon, Spiral(10 ** rng.uniform(-0.5, 0.8), 4.0))
 
 
-def random_dance(seed, bench_by_bench):
+def random_dance(seed):
     """A dance, and the slow one: its dragon stands apart at the start of a spiral short enough for the slow search."""
     rng = np.random.default_rng(seed)
     while True:
-        dragon = random_dragon(rng, bench_by_bench)
+        dragon = random_dragon(rng)
         spiral = Spiral(dragon.widths.max() * rng.uniform(1.2, 4.0), rng.uniform(1.0, 6.0))
         try:
             dance = Dance(dragon, spiral)

@@ -18,8 +18,8 @@ from core.contact.cross_check import (
 )
 from core.shapes.engines import Engine
 from core.shapes.overlaps import Verdict
+from tests.campaigns.hunt_contacts import random_dragon
 from tests.support.depth import examples
-from tests.support.random_dances import random_dragon
 from tests.support.scenes import lengths_and_widths, unlinked_pairs
 
 EXACT = (Engine.SEPARATING_AXIS, Engine.FCL, Engine.SHAPELY)
@@ -63,7 +63,7 @@ def test_the_whole_dragon_is_as_reported_on_random_dragons():
     random = np.random.default_rng(1)
     checked = 0
     for _ in range(examples(20, 200)):
-        dragon = random_dragon(random, random.random() < 0.5)
+        dragon = random_dragon(random)
         pitch = dragon.widths.max() + random.uniform(0.1, 0.4)
         path = Spiral(pitch, random.uniform(5.0, 9.0) / pitch)
         margin = random.choice([0.0, 0.0, 0.03])

@@ -6,11 +6,12 @@ import pytest
 from core import Dance, Dragon, EndReason, Outcome, Spiral, first_contact
 from core.contact.fold import least_left, least_to_fold
 from core.contact.search import ContactSearch
-from tests.core.contact.test_first_contact import TIED
 from tests.support.depth import thorough
 from tests.support.random_dances import random_dance
 from tests.support.slow_search import SlowDance
 
+# Rounding of a slow clearance [m].
+ROUNDING = 1e-9
 # Dances apart to their fold, whose last 1e-9 s were left open: the motion left was that of the longest overhang on the
 # shortest chord, whichever benches they belong to.
 TO_THE_FOLD = {
@@ -35,9 +36,9 @@ def test_the_last_instants_before_a_fold_are_decided(dragon, spiral):
     assert SlowDance.of(dragon, spiral).clearance(times)[0].min() > 0.0
 
 
-@pytest.mark.parametrize("seed", [*range(500, 506), *thorough(*range(511, 520))])
+@pytest.mark.parametrize("seed", [*range(501, 507), *thorough(507, 508, 509, *range(523, 529))])
 def test_no_instant_before_a_fold_has_benches_nearer_than_the_bound_on_the_motion_left(seed):
-    dance, slow = random_dance(seed, True)
+    dance, slow = random_dance(seed)
     end = dance.end
     assert end.reason is EndReason.FOLD
     search = ContactSearch(dance.dragon, dance.path, 0.0)
@@ -45,5 +46,5 @@ def test_no_instant_before_a_fold_has_benches_nearer_than_the_bound_on_the_motio
         travel = (1.0 - left) * end.time
         least = least_to_fold(search, travel, end.theta)
         gaps, _ = slow.clearance(end.time * (1.0 - left * np.linspace(1.0, 1e-3, 60) ** 2))
-        assert least <= gaps.min() + TIED
+        assert least <= gaps.min() + ROUNDING
         assert least_left(search, travel - search.travel_rounding(travel), end.theta) <= least

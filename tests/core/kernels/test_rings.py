@@ -17,7 +17,7 @@ from core.kernels import (
     spirals_least,
 )
 from core.kernels.constants import FREE
-from tests.support.random_dances import random_dragon
+from tests.campaigns.hunt_contacts import random_dragon
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -38,7 +38,7 @@ def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_thei
 def random_case(seed):
     """A random dragon on a pitch of some of its widths, whose people do not stray."""
     rng = np.random.default_rng(seed)
-    dragon = random_dragon(rng, False)
+    dragon = random_dragon(rng)
     chord = float(dragon.chords[-1])
     return dragon, max(1.2 * float(dragon.widths[0]), chord * 10 ** rng.uniform(-1.0, 0.4)), 0.0
 
