@@ -229,7 +229,8 @@ def _placed(piece: AnyPiece, place: str) -> core.Piece:
 
 
 class WaypointsPath(WaypointsPiece, strict=True):
-    """A path through points, smooth everywhere: each leg between two of them is a curve or a straight line."""
+    """A path through points: each leg between two of them is a curve or a straight line. It is smooth but at corners
+    without a radius."""
 
     straight: list[Leg] = Field(
         default_factory=list,
@@ -238,8 +239,13 @@ class WaypointsPath(WaypointsPiece, strict=True):
         description="Legs that are straight, from 0: leg k goes from point k to the next one. The others are curves, "
         "which leave and enter the straight legs beside them in their direction",
     )
-    radius: Radius = measure(
-        "m", "Radius of the arcs that round a corner of two straight legs, smaller where a leg is too short for it", 5.0
+    radius: float = measure(
+        "m",
+        "Radius of the arcs that round a corner of two straight legs, smaller where a leg is too short for it. 0 "
+        "leaves the corners, each of which must turn by less than 90 degrees: handles pass them, and speeds jump there",
+        5.0,
+        ge=0.0,
+        le=1e4,
     )
     start: Start = 0.0
 
@@ -260,7 +266,8 @@ def _point(value: list[float]) -> tuple[float, float]:
 
 
 class RoutePath(Wire, strict=True):
-    """Pieces joined into one path; place and direction must agree where two meet."""
+    """Pieces joined into one path; place and direction must agree where two meet, but two lines may meet at a corner of
+    less than 90 degrees."""
 
     kind: Literal["route"] = Field(description="Kind of path")
     pieces: list[AnyPiece] = Field(

@@ -42,6 +42,7 @@ from core.kernels.constants import (
     COIL_ARC,
     COIL_GROWTH,
     COIL_ROTATION,
+    CORNERED,
     CREST,
     CUBIC,
     HALF_WIDTH,
@@ -105,7 +106,8 @@ def _one_at_a_time(budget: Budget) -> Iterator[None]:
 class ExactPair:
     """Two benches of a search, or a bench and an edge at rest: their places and their separation.
 
-    can_follow: True if the path has no curve through waypoints, and the pair is not further back than LAST_BENCH
+    can_follow: True if the path has no corner and no curve through waypoints, and the pair is not further back than
+        LAST_BENCH
     """
 
     def __init__(self, search: ContactSearch, pair: tuple[int, int]) -> None:
@@ -119,7 +121,8 @@ class ExactPair:
             for row, column in product(self.pieces, LOWS):
                 row[column] += row[LOWS[column]]
         kinds = {int(row[PIECE_KIND]) for row in self.pieces}
-        self.can_follow = self.last <= LAST_BENCH and not kinds & {CUBIC, CREST}
+        cornered = self.pieces[0][CORNERED] > 0  # which side of a corner a handle is on, doubles may hide
+        self.can_follow = self.last <= LAST_BENCH and not cornered and not kinds & {CUBIC, CREST}
 
     def benches(self, travel: Decimal) -> tuple[Bench, Bench]:
         """The two benches with the head at a travel [m]. raises: Unsolved"""

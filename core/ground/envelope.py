@@ -55,7 +55,7 @@ from core.error_free import paired
 from core.errors import InvalidValue, checked_list, checked_number, checked_point, or_about, question_about
 from core.ground.tracks import Track, tracks
 from core.kernels import Budget
-from core.kernels.constants import CHORD, CORNER_PULL, FREE, HALF_LENGTH, HALF_WIDTH, RADIUS
+from core.kernels.constants import CHORD, CORNER_PULL, FREE, HALF_LENGTH, HALF_WIDTH, LAG, PLACE_SPARE, RADIUS
 from core.language import counted, say
 from core.performance import Performance
 from core.shapes.engines import GRID, GROWTH_MOST, Polygons, area_of, distance_from, united
@@ -234,6 +234,7 @@ class _Lone:
     def __init__(self, dance: Dance, track: Track, excess: float, budget: Budget) -> None:
         dragon, path, bench = dance.dragon, dance.path, slice(track.bench, track.bench + 1)
         self.dragon = Dragon.of(dragon.lengths[bench], dragon.widths[bench], dragon.overhangs[bench])
+        self.turns = np.empty(0) if path.spiral is not None else path.as_route(path.end).corners
         self.path, self.stretches, self.excess, self.budget = path, track.stretches, excess, budget
         columns = self.dragon.lengths, self.dragon.widths, self.dragon.chords
         length, width, self.chord = (column.item() for column in columns)
@@ -242,8 +243,8 @@ class _Lone:
         sizes, self.motion = np.zeros((2, kernels.SIZE_COLUMNS)), np.zeros((2, kernels.MOTION_COLUMNS))
         sizes[0, [CHORD, HALF_LENGTH, HALF_WIDTH, RADIUS]] = self.chord, 0.5 * length, 0.5 * width, self.radius
         scene = kernels.Scene(path.curve, path.place, kernels.Rings(), sizes, 1, 0)
-        before, after = np.zeros((2, 2, kernels.CHAIN_COLUMNS))
-        self.interval = kernels.Interval(scene, before, after, self.motion)
+        self.before, after = np.zeros((2, 2, kernels.CHAIN_COLUMNS))
+        self.interval = kernels.Interval(scene, self.before, after, self.motion)
 
     def sweep(self) -> Iterator[_Part]:
         """The ground that it sweeps, stretch by stretch."""
@@ -256,6 +257,7 @@ class _Lone:
                 if not wide.size:
                     break
                 self.budget.afford(CELL_WORK * wide.size)
+                pulls[wide] *= 2.0 if self.turns.size else 1.0  # jumps count as 2 V / h (core/kernels/corners.py)
                 nodes = np.insert(nodes, wide + 1, 0.5 * (nodes[wide] + nodes[wide + 1]))
                 pulls = np.insert(pulls, wide, pulls[wide])
             ends = np.linalg.norm(corners[[0, -1]] - corners[[1, -2]], axis=-1).max(axis=1)
@@ -269,6 +271,8 @@ class _Lone:
             pull, count = self.pull(s, h), CELLS + 1
             if pull < FREE:
                 count = max(1, math.ceil(min(h * math.sqrt(0.125 * pull / (BOW * self.excess)), count)))
+            if count > 1 and self.over_corner(s + h):  # K holds only over all of h
+                count = CELLS + 1
             if count > CELLS and self.moved(s, h) <= (BOW_AND_SLIP - BOW) * self.excess:
                 count, pull = 1, 0.0
             if count > CELLS:
@@ -286,6 +290,11 @@ class _Lone:
         """K over [s, s + h] [1/m]; FREE where none is known."""
         known = self.interval.lay_out(self.path.place - s, h, 1)
         return float(self.motion[0, CORNER_PULL]) if known else FREE
+
+    def over_corner(self, s: float) -> bool:
+        """Whether a corner is between its rear handle in the last interval and a place of its front one [m]."""
+        rear = -float(self.before[1, LAG])
+        return bool(((rear - PLACE_SPARE < self.turns) & (self.turns < s + PLACE_SPARE)).any())
 
     def moved(self, s: float, h: float) -> float:
         """Upper bound of the distance of any point from its place at s, up to s + h [m]; FREE where none is known."""

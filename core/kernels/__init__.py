@@ -27,6 +27,7 @@ route        points and chain on a table of pieces        chain          of a sp
 clothoid     points on pieces whose curvature changes evenly
 rounding     largest errors of all of these               scene          dragon, path, intervals of head travel
 bounds       highest speeds of handles and benches        stretches      curvature of the path under a bench
+corners      where tangents and speeds jump
 hulls        benches as unions of hulls                   gap_curvature  the largest second derivative of a gap
 faces        least gap of two unions of hulls             pairs          least gap of two benches
 nearest      least gap of any two                         rings          benches too far out to touch

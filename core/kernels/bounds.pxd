@@ -1,12 +1,13 @@
 cimport cython
 from core.kernels.arrays cimport Pieces, Rows
 from core.kernels.constants cimport *
+from core.kernels.corners cimport bench_has_corner, cornered_link, jumped
 from core.kernels.records cimport Cosines, LinkBounds, Stretch
 from core.kernels.spiral cimport spiral_curvature
 from core.kernels.stretches cimport blur_of, link_stretch, parts_between
 from core.kernels.rounding cimport spiral_rounding
 
-cdef double TRIAL, RATIO_FOLLOWED, SPIRAL_SWAY, LOOSEN, TIGHTEN, ROUTE_SINE_ROUNDED
+cdef double TRIAL, RATIO_FOLLOWED, SPIRAL_SWAY, LOOSEN, TIGHTEN, ROUTE_SINE_ROUNDED, WIDTH_SPARE
 
 cdef void stand_between(Py_ssize_t k, Rows before, Rows after, double widened, Rows motion) noexcept nogil
 
@@ -40,7 +41,7 @@ cdef void bound_climb(
     Py_ssize_t k, double h, Stretch stretch, Cosines cosines, Rows before, Rows after, Rows motion
 ) noexcept nogil
 
-@cython.locals(k=cython.Py_ssize_t)
+@cython.locals(k=cython.Py_ssize_t, cornered=cython.bint, bends=cython.bint)
 cpdef bint route_bounds(
     Pieces pieces, double h, Py_ssize_t benches, Rows sizes, Rows before, Rows after, bint climbing, Rows motion
 ) noexcept nogil

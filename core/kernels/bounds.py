@@ -5,6 +5,7 @@ from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
+    from core.kernels.corners import bench_has_corner, cornered_link, jumped
     from core.kernels.records import Cosines, LinkBounds
     from core.kernels.rounding import spiral_rounding
     from core.kernels.spiral import spiral_curvature
@@ -86,6 +87,8 @@ RATIO_FOLLOWED = 1.001
 SPIRAL_SWAY = 13.0
 LOOSEN = 1.0 + 4e-15
 TIGHTEN = 1.0 - 4e-15
+# Part by which the way over which jumps count is narrowed, for its rounding [1].
+WIDTH_SPARE = 1e-9
 # The sharpest bend that a chord can follow on a route, widened by its rounding [1].
 ROUTE_SINE_ROUNDED = ROUTE_SINE_LIMIT * (1.0 + 1e-9)
 
@@ -253,6 +256,9 @@ def bound_climb(k, h, stretch, cosines, before, after, motion):
     second_b = motion[k + 1, RATE_RATE]
     turned = max(fabs(before[k + 1, CLIMB]), fabs(after[k + 1, CLIMB]))
     error_a = motion[k, RATE_ERROR]
+    if motion[k + 1, CROSSED] >= CORNER_PARTS:  # the rates at both ends may be those of either side of the corner
+        motion[k + 1, RATE_ERROR] = motion[k + 1, CLIMB_ERROR] = FREE
+        return
     error_b = (error_a * cosines.front_high + 2.0 * stretch.blur * rate_b) / cosines.rear_low
     climb_error = motion[k, CLIMB_ERROR]
     widened = stretch.widened * (rate_a * rate_a + rate_b * rate_b)
@@ -273,7 +279,7 @@ def bound_climb(k, h, stretch, cosines, before, after, motion):
 # Output: a motion row for every bench and the handle in front of it, see constants.py.
 def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
     """motion_bounds() on a route. No handle reverses there. The chord lemma serves where k chord < 2; a link on sharper
-    bends is followed from the ends of the interval, with 1 for its sines.
+    bends is followed from the ends of the interval, with 1 for its sines, and one at a corner as corners.py says.
 
     Where the curvature changes sign between two handles, the angles lie in [-k l / 2, k l / 2] for the larger |k|. The
     cosines of the angles are also followed from both ends of the interval, as near the centre of a spiral: |cos alpha|'
@@ -285,6 +291,11 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
     + 8 (a' + b') (e_a + e_b + blur (a' + b')) / c
     """
     third_a = 0.0
+    cornered = pieces[0, CORNERED] > 0.0
+    # for the jumps, the way of a head that is not displaced: a member of an ensemble adds that to h
+    width = (h - before[0, SLIP] - after[0, SLIP]) * (1.0 - WIDTH_SPARE)
+    if cornered and width <= 0.0:
+        return False
     motion[0, RATE_HIGH] = rate_low = 1.0
     motion[0, RATE_RATE] = motion[0, RATE_ERROR] = motion[0, CLIMB_ERROR] = 0.0
     motion[0, CROSSED] = parts_between(pieces, 0, before, after)
@@ -294,7 +305,9 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
         sine = stretch.sine
         rate_a = motion[k, RATE_HIGH]
         second_a = motion[k, RATE_RATE]
-        if sine <= ROUTE_SINE_ROUNDED:
+        bends = cornered and bench_has_corner(pieces, k, before, after)
+        jumps = 0.0
+        if sine <= ROUTE_SINE_ROUNDED and not bends:
             cosines = route_cosines(k, h, stretch, rate_a, rate_low, before, after)
             front = cosines.front_high
             rear = cosines.rear_low
@@ -303,20 +316,25 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
             omega = high * max(rate_a, rate_b)
             swing = swing_bound(stretch.low, high, rate_a, rate_low, front / rear, ratio_low)
         else:
-            link = followed_link(k, h, high, rate_a, stretch.chord, stretch.blur, before, after)
+            if bends:
+                link = cornered_link(pieces, k, h, stretch, rate_a, before, after)
+            else:
+                link = followed_link(k, h, high, rate_a, stretch.chord, stretch.blur, before, after)
             if not link.bounded:
                 return False
+            if bends:
+                jumps = 2.0 * jumped(pieces, k, rate_a, link.rate, before, after) / width
             cosines = Cosines(0.0, link.cos_front, link.cos_rear, 1.0)
             rear = link.cos_rear
             rate_b = LOOSEN * rate_a * link.cos_front / rear
             omega = link.omega
             swing = max(link.swing_front, link.swing_rear)
             front = sine = 1.0
-        second_b = LOOSEN * (front * second_a + sine * swing * (rate_a + rate_b)) / rear
+        second_b = LOOSEN * (front * second_a + sine * swing * (rate_a + rate_b) + jumps) / rear
         # b' cos alpha_b = a' cos alpha_a <= rate_a front, which is more than rate_b front where b is the slower handle.
         both = rate_a + max(rate_a, rate_b)
-        spin = omega * omega + (front * swing * both + sine * (second_a + second_b)) / stretch.chord
-        pull = 0.5 * (second_a + second_b + high * (rate_a * rate_a + rate_b * rate_b))
+        spin = omega * omega + (front * swing * both + sine * (second_a + second_b) + jumps) / stretch.chord
+        pull = 0.5 * (second_a + second_b + high * (rate_a * rate_a + rate_b * rate_b) + jumps)
         bench_bounds(k, rate_a, rate_b, omega, spin, pull, sizes, motion)
         motion[k, OMEGA_LOW] = motion[k, RATE_LOW] = 0.0
         third_b = stretch.slope * (rate_a * rate_a * rate_a + rate_b * rate_b * rate_b)

@@ -59,7 +59,9 @@ THETA_LOW = 13
 RATE_JERK = 14  # |s'''|; on a route only where no handle up to this one crosses into another part
 CURVATURE_LOW = 15  # on a spiral, times its growth
 CURVATURE_HIGH = 16
-CROSSED = 17  # total number of joints between parts of a route that the handles up to this one cross
+CROSSED = 17  # total number of joints between parts of a route that the handles up to this one cross; a corner counts
+# as CORNER_PARTS
+CORNER_PARTS = 1e3
 # Rounding of RATE [1] and of CLIMB [1/m] at either end of the interval, where climbs() was called.
 RATE_ERROR = 18
 CLIMB_ERROR = 19
@@ -147,7 +149,10 @@ CURVATURE_SLACK = 17  # largest difference between its curvature and that of the
 # What S_START, S_END and COIL_ARC [m], and COIL_GROWTH [m/rad], have lost in rounding.
 S_START_LOW, S_END_LOW, COIL_ARC_LOW, COIL_GROWTH_LOW = range(18, 22)
 SHARPEST = 22  # the largest |curvature| of all rows, the same in each [1/m]
-PIECE_COLUMNS = 23
+# At the beginning of a line: |T' - T| of the tangents of both lines if there is a corner, else 0 [1]. Whether the route
+# has corners, the same in each row: 1 or 0.
+CORNER, CORNERED = 23, 24
+PIECE_COLUMNS = 25
 # Up to CLOTHOID a place follows from the arc length itself, on a cubic from a quadrature.
 LINE, ARC, SPIRAL, CLOTHOID, CUBIC, CREST = range(6)
 PIECE_KINDS = ("line", "arc", "spiral", "clothoid", "cubic", "crest")

@@ -7,6 +7,7 @@ import core.kernels.constants as of_python  # only for results: compiled enums a
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
+    from core.kernels.corners import corners_between, cosines_past
     from core.kernels.route import first_behind, piece_of, route_point
 
 # Let D(s, r) be the distance between the places s and r < s of a route, c the chord, u the direction from r to s, T the
@@ -30,6 +31,10 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # c - h / 2 - D(m, r) is positive, (3) holds for as many metres more.
 #
 # e: near the follower D(m, r_b + e) is c - e u . T(r) - h / 2 u . T(s), which needs to be below c - h / 2.
+#
+# At a corner T jumps: a box that holds one takes the least of the values with the tangent at its middle and with the
+# directions of the lines beside its corners. Within the box the tangent is nowhere further than its whole side from one
+# of these, in place of half.
 #
 # Rounding: places and points are good to SPARE beside LOOSE, far above their rounding on routes of less than 1e5 m.
 SPARE = 1e-10
@@ -68,6 +73,7 @@ class Follower:
         self.longest = chord
         self.work = 0.0
         self.p = self.q = 0
+        self.cornered = pieces[0, CORNERED] > 0.0
 
     def follow(self, start, stop, beyond, most_work):
         """Prove on from a place of the front handle to `stop`, or to where the rear handle is `beyond` [m].
@@ -141,6 +147,8 @@ class Follower:
             return Follows.SIDEWAYS
         if front <= 0.0:
             return Follows.BACKWARDS
+        if self.cornered:
+            rear = max(self.past(rear, r, r + SLAB * self.chord, b, r), self.least)
         ahead = h * (0.5 * AHEAD * (1.0 - min(front, 1.0)) / rear + AHEAD_LEAST) + 4.0 * self.spare / rear
         near = r + ahead
         middle = a + 0.5 * h
@@ -148,10 +156,16 @@ class Follower:
         rear, front = self.cosines(middle, self.rear + half)
         most = self.chord + h + 2.0 * half  # of D on the box
         bend = sharpest_between(self.pieces, self.rear, near, self.q)
+        if self.cornered:
+            bend *= 2.0
+            rear = self.past(rear, self.rear, near, middle, self.rear + half)
         rear -= (0.5 * h + half * (1.0 + bend * most) + 4.0 * self.spare) / self.chord
         if rear <= self.least:
             return Follows.SIDEWAYS
         bend = sharpest_between(self.pieces, a, b, self.p)
+        if self.cornered:
+            bend *= 2.0
+            front = self.past(front, a, b, middle, self.rear + half)
         front -= (half + 0.5 * h * (1.0 + bend * most) + 4.0 * self.spare) / self.chord
         if front <= 0.0:
             return Follows.BACKWARDS
@@ -163,6 +177,19 @@ class Follower:
         self.reached = b
         self.rear = r
         return Follows.PROVEN
+
+    def past(self, cosine, low, high, s, r):
+        """The least of a cosine and those of the lines beside the corners between two places, with u from r to s, times
+        the distance over the chord."""
+        first = piece_of(self.pieces, low - self.spare, self.q)
+        last = piece_of(self.pieces, high + self.spare, first)
+        if corners_between(self.pieces, first, last) == 0.0:
+            return cosine
+        x, y, _, _, _ = route_point(self.pieces, self.p, s, 0.0)
+        bx, by, tx, ty, _ = route_point(self.pieces, self.q, r, 0.0)
+        self.work += 2.0
+        least, _ = cosines_past(self.pieces, first, last, tx, ty, (x - bx) / self.chord, (y - by) / self.chord)
+        return min(cosine, least)
 
     def nearer_are_near(self, middle, half, near):
         """Whether all places from `near` on are less than a chord from the places within `half` of the middle (3)."""

@@ -1,6 +1,7 @@
 cimport cython
 from core.kernels.arrays cimport Pieces, Rows
 from core.kernels.constants cimport *
+from core.kernels.corners cimport CORNER_NEAR, sided_cosines
 from core.kernels.route cimport cubic_point, cubic_speed, route_point, theta_at
 
 cdef double slipped(double slip, double ratio, double slope, double local, double spots, double inverse) noexcept nogil

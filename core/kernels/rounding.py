@@ -5,6 +5,7 @@ from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
+    from core.kernels.corners import CORNER_NEAR, sided_cosines
     from core.kernels.route import cubic_point, cubic_speed, route_point, theta_at
 
 # On a spiral. u = ULP is the unit of rounding: each operation and square root errs by a factor within 1 +- u, each sin
@@ -248,6 +249,11 @@ def route_rounding(pieces, last, sizes, chain):
         spots += spot
         slope = 1.0 / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
         ratio = (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY]) * slope
+        if pieces[0, CORNERED] > 0.0:  # the tangents of both sides, and an angle of u that may be any
+            rear, _ = sided_cosines(pieces, k + 1, k, chain)
+            _, front = sided_cosines(pieces, k, k, chain)
+            slope = max(slope, 1.0 / rear) if rear > 0.0 else FREE
+            ratio = max(fabs(ratio), front * slope)
         # u is the difference of the points over the chord; | |u| - 1 | <= 0.6 | |u|^2 - 1 | unless the link is far off
         u2 = chain[k, UX] * chain[k, UX] + chain[k, UY] * chain[k, UY]
         local = (chord * (0.6 * fabs(u2 - 1.0) + 8.0 * ULP) + spots) * slope
@@ -256,6 +262,10 @@ def route_rounding(pieces, last, sizes, chain):
         if k > 0:
             chain[k, ERROR] = max(chain[k, ERROR], chain[k - 1, ERROR])
         chain[k, SWAY] = swayed(k, chain, ratio, local, spots, inverse)
+        if pieces[0, CORNERED] > 0.0:
+            chain[k, SWAY] += (1.0 + ratio) * chain[k, SLIP] * inverse
+            if chain[k + 1, SLIP] > CORNER_NEAR:
+                chain[k + 1, SLIP] = FREE
     chain[0, FILLED] = max(first, last)
 
 

@@ -222,7 +222,7 @@ def extend_route(pieces, first, last, until, sizes, chain):
         p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
         chord = sizes[k, CHORD]
         same = k > 0 and sizes[k - 1, CHORD] == chord
-        tight = sharpest * chord > ROUTE_SINE_LIMIT
+        tight = sharpest * chord > ROUTE_SINE_LIMIT or pieces[0, CORNERED] > 0.0
         step = chain[k, PLACE] - chain[k - 1, PLACE] if same else chord
         if pieces[p, PIECE_KIND] == LINE:
             step = chord
@@ -317,7 +317,8 @@ def seek_rear(pieces, k, p, step, chord, chain):
 # |curvature| <= k, which is known to the end of the piece. Such steps pass no root, and come to the first one as
 # quickly as Newton's method.
 FIRST_STEPS = 2000
-# Part of the chord by which a step may pass the end of a piece [1]: the next curvature moves D by its square.
+# Part of the chord by which a step may pass the end of a piece [1]: the next curvature moves D by its square. No step
+# passes a corner by more than its gap, which no curvature enters.
 PASSED_END = 1e-9
 
 
@@ -342,7 +343,8 @@ def first_behind(pieces, p, s, low, x, y, chord):
             most = max(fabs(pieces[p, K_START]), fabs(pieces[p, K_END])) + pieces[p, CURVATURE_SLACK] + 2.0 / distance
             quick = min(2.0 * gap / (slope + sqrt(slope * slope + 2.0 * most * gap)), 0.5 * distance)
             if p > 0:
-                quick = min(quick, s - step - pieces[p, S_START] + PASSED_END * chord)
+                passed = PASSED_END * chord if pieces[p, CORNER] == 0.0 else 0.0
+                quick = min(quick, s - step - pieces[p, S_START] + passed)
             further = max(further, quick)
         if step + further == step:
             return step, p

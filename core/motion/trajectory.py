@@ -159,7 +159,8 @@ def trajectory(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) 
     returns: see Trajectory; positions up to 20 m from the centre are good to 1e-11 m, further ones to 1e-12 of that
         distance, on spirals and coils of up to 100,000 turns (off the origin also to the rounding of the coordinates);
         speeds to 1e-11 m/s up to 0.01 s before a fold; these come from the rigid links, not from differences;
-        at a time when the head changes its speed, they are those after the change
+        at a time when the head changes its speed, they are those after the change; a handle in a corner of a route has
+        the velocity with which it comes there
     raises: OutsideRun (times) after the end of the run, or if the tail would be before the beginning of a route;
         TooMuchWork
     source: Yang et al., section 2.3, whose eqs. 6-7 divide a sum of speeds by 2 dt where a distance is meant

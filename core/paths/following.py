@@ -103,9 +103,10 @@ class Following:
 
 
 def bends_widely(dragon: Dragon, path: Route) -> bool:
-    """True if every radius is at least half of every chord over ROUTE_SINE_LIMIT, which suffices to follow it."""
+    """True if every radius is at least half of every chord over ROUTE_SINE_LIMIT, which suffices to follow it, and no
+    corner is there."""
     longest = float(dragon.chords[: dragon.uniform_from + 1].max())
-    return bool(0.5 * path.sharpest[0] * longest <= kernels.ROUTE_SINE_LIMIT)
+    return bool(0.5 * path.sharpest[0] * longest <= kernels.ROUTE_SINE_LIMIT and not len(path.corners))
 
 
 def follows(dragon: Dragon, path: Route) -> bool:
@@ -152,11 +153,13 @@ def _followed(chords: Floats, path: Route) -> Following:
     for bench, chord in sorted(zip(firsts.tolist(), kinds.tolist(), strict=True)):
         proof = kernels.Follower(path.table, chord, REAR_COSINE_LEAST)
         end = _front_most(chords, bench, path)
-        earliest = _first_front(path, chord)
+        earliest, proven = _first_front(path, chord), -math.inf
         for start, stop in _tight_parts(path, least_radius(chord)):
-            begin = max(start, earliest)
+            begin = max(start, earliest, proven)
             if begin < end and stop > proof.rear:
                 ended = proof.follow(begin, end, stop, WORK_MOST)
+                if len(path.corners) and ended is Follows.PROVEN:
+                    proven = proof.reached
                 if ended is not Follows.PROVEN:
                     obstacles.append(_obstacle(bench, chord, path, proof, Hindrance[ended.name]))
         arc, rear, front = max(arc, proof.longest), min(rear, proof.rear_cosine), min(front, proof.front_cosine)
@@ -190,8 +193,10 @@ def _tight_parts(path: Route, radius: float) -> list[tuple[float, float]]:
         return low
 
     return [
-        (edge(table[row], S_START, S_END, K_START), edge(table[end], S_END, S_START, K_END))
-        for row, end in zip(rows, ends, strict=True)
+        (start, stop)  # a corner
+        if start == stop
+        else (edge(table[row], S_START, S_END, K_START), edge(table[end], S_END, S_START, K_END))
+        for row, end, (start, stop, _) in zip(rows, ends, path.tighter(radius), strict=True)
     ]
 
 

@@ -11,10 +11,10 @@ import numpy as np
 
 from core import kernels
 from core.display import REPR_MOST, Readable
-from core.errors import Given, InvalidValue, checked_list, checked_number, checked_size
+from core.errors import SIZE_MAX, Given, InvalidValue, checked_list, checked_number, checked_size
 from core.kernels import Budget
 from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Waypoints, checked_points, point_too_near
-from core.paths.route import Route
+from core.paths.route import CORNER_END, Route, too_sharp
 from core.values import Floats, Point
 
 # Default radius of an arc at a corner [m].
@@ -31,10 +31,11 @@ AT_WAYPOINT = 1e-6
 
 
 class Legs(Route):
-    """A route through points, smooth everywhere.
+    """A route through points, smooth everywhere but at corners without an arc.
 
     points: (x, y) [m]; straight: the legs that are straight, leg k from point k to point k + 1; the others are curves
-    radius: of the arcs at corners between two straight legs [m]; smaller if a leg is too short for it
+    radius: of the arcs at corners between two straight legs [m]; smaller if a leg is too short for it; 0 leaves corners
+        of less than CORNER_END as they are
     start_heading, end_heading: direction at an end with a curved leg [rad]; None: no curvature at that end
     start: distance of the head from the beginning at time 0 [m]
     raises: InvalidValue naming the point or the leg; TooMuchWork
@@ -58,7 +59,7 @@ class Legs(Route):
     ) -> None:
         self.points = checked_points("path.points", points)
         self.straight = _checked_legs(straight, len(self.points) - 1)
-        self.radius = checked_size("path.radius", radius)
+        self.radius = _checked_radius(radius)
         _refuse_near(self.points)
         ends = {"start_heading": start_heading, "end_heading": end_heading}
         self._ends = "".join(f", {name}={value!r}" for name, value in ends.items() if value is not None)
@@ -91,7 +92,9 @@ class Legs(Route):
                 k, begin = end, points[end]
                 continue
             corner = None
-            if k + 1 in straight:
+            if k + 1 in straight and self.radius == 0.0:
+                _refuse_sharp(k + 1, points[k : k + 3])
+            elif k + 1 in straight:
                 corner = _rounded(k + 1, points[k], points[k + 1], points[k + 2], self.radius)
             pieces.append(Line(begin, points[k + 1] if corner is None else corner[0]))
             firsts.append(k)
@@ -128,6 +131,20 @@ class Legs(Route):
             between.append(float(ends[row]))
             row += 1
         return between
+
+
+def _checked_radius(radius: float) -> float:
+    """A radius of arcs, or 0 for none."""
+    number = checked_number("path.radius", radius, "m", 0.0, SIZE_MAX)
+    return number if number == 0.0 else checked_size("path.radius", number)
+
+
+def _refuse_sharp(k: int, points: tuple[Point, ...]) -> None:
+    """Refuse a corner in point k that no bench can follow. points: the three around it"""
+    before, after = (_heading(*ends) for ends in pairwise(points))
+    angle = abs(math.remainder(after - before, math.tau))
+    if angle >= CORNER_END:
+        raise too_sharp(f"path.points.{k}", angle)
 
 
 def _checked_legs(straight: Sequence[int], legs: int) -> frozenset[int]:

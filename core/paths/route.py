@@ -1,4 +1,4 @@
-"""Route: pieces joined into one path by arc length; the position and the tangent of every joint are checked."""
+"""Route: pieces joined into one path by arc length; every joint is checked: smooth, or a corner of two lines."""
 
 from __future__ import annotations
 
@@ -15,8 +15,12 @@ from core.error_free import paired
 from core.errors import Given, InvalidValue, Parameter, Quantity, Value, checked_list, checked_number, too_much
 from core.kernels import Budget, Halted
 from core.kernels.constants import (
+    CORNER,
+    CORNERED,
     K_END,
     K_START,
+    LINE_DX,
+    LINE_DY,
     POINT_CURVATURE,
     PX,
     PY,
@@ -39,16 +43,28 @@ DRAWN_POINTS = 20_000
 # Largest gap [m] and kink [rad] of two joined pieces: rounding of coordinates up to 1 km.
 JOINT_GAP = 1e-9
 JOINT_KINK = 1e-9
+# Least angle of a corner that no bench can follow [rad]: it would have to walk backwards out of it.
+CORNER_END = 0.5 * math.pi
+# Part by which the jump of a tangent counts as larger, for its rounding [1].
+JUMP_SPARE = 1e-14
 # Columns of the curvatures of a piece.
 BENDS = slice(K_START, K_END + 1)
 # Most pieces that are listed one by one [1].
 PIECES_LISTED = 6
 
 
+def too_sharp(name: str, angle: float) -> InvalidValue:
+    """The error for a corner of an angle [rad]; name: of the point or piece that begins there"""
+    words, why = "the corner at {corner} must turn by less than {limit}", "no bench can follow a sharper one"
+    got, limit = (Quantity(math.degrees(one), "degrees", 6) for one in (angle, CORNER_END))
+    return InvalidValue.in_words(name, words, reason=why, got=got, limit=limit, corner=Parameter(name))
+
+
 class Route(Readable):
     """Pieces joined into one path, with s = 0 at `start` metres from the beginning of the first one.
 
-    pieces: in the order of the dance; joints must agree within JOINT_GAP and JOINT_KINK
+    pieces: in the order of the dance; joints must agree within JOINT_GAP and JOINT_KINK, but two lines may meet at a
+        corner of less than CORNER_END
     table: rows for the kernels; joints: s of every joint [m]; begin, end: s of both ends [m]
     tail_begin: least s of a handle [m]; None if the first piece coils inwards: it continues outwards for the tail
     calm_beginning: True if the curvature does not fall along the first piece, so no handle is faster than its leader
@@ -101,11 +117,23 @@ class Route(Readable):
         self.tail_begin = None if inwards else self.begin
         grows = isinstance(first, Clothoid) and first.grows
         self.calm_beginning = inwards or grows or isinstance(first, Line | Arc)
+        self._lay_corners([row for _, row in joints[1:]])
         self.slide = self._smooth()
         self.table.flags.writeable = False
         self.followed: dict[bytes, Any] = {}
         for k, (s, row) in enumerate(joints[1:], start=1):
             self._refuse_joint(k, s, row)
+
+    def _lay_corners(self, rows: list[int]) -> None:
+        """Fill in the corners at the beginnings of rows."""
+        lines = [
+            row for k, row in enumerate(rows, start=1) if all(isinstance(p, Line) for p in self.pieces[k - 1 : k + 1])
+        ]
+        along = self.table[:, LINE_DX : LINE_DY + 1]
+        jumps = np.hypot(*(along[lines] - along[[row - 1 for row in lines]]).T)
+        corners = np.array(lines, dtype=np.int64)[jumps > JOINT_KINK]
+        self.table[corners, CORNER] = jumps[jumps > JOINT_KINK] * (1.0 + JUMP_SPARE)
+        self.table[:, CORNERED] = float(len(corners) > 0)
 
     # Two pieces that do not meet exactly are blended, on the longer one, by a polynomial of degree 5 over a length l of
     # at most 1 m (BLEND in core/kernels/constants.py). It reduces a gap g across the path, a kink k and a step d of the
@@ -119,6 +147,9 @@ class Route(Readable):
         kernels.joint_misses(table, misses)
         kernels.piece_slides(table, slides)
         across, along, kink, step = misses[1:].T
+        corner = table[1:, CORNER] > 0.0
+        kink[corner] = 0.0
+        across[corner] = along[corner] = (across + along)[corner]
         lengths = table[:, S_END] - table[:, S_START]
         over = np.minimum(kernels.BLEND, np.maximum(lengths[1:], lengths[:-1]))
         step = np.where(table[1:, kernels.PART] == table[:-1, kernels.PART], step, 0.0)
@@ -134,8 +165,8 @@ class Route(Readable):
     def _refuse_joint(self, k: int, s: float, row: int) -> None:
         ends = np.empty((2, kernels.POINT_COLUMNS))
         place = np.array([[s, self.table[row, S_START_LOW]]])
-        for side, part in enumerate((self.table[:row], self.table[row:])):
-            kernels.route_points(np.ascontiguousarray(part), place, ends[side : side + 1])
+        for side in range(2):
+            kernels.route_points(self.table[row - 1 + side : row + side], place, ends[side : side + 1])
         (x, y, tx, ty, _), (x2, y2, tx2, ty2, _) = ends
         gap = math.hypot(x2 - x, y2 - y)
         kink = abs(math.atan2(tx * ty2 - ty * tx2, tx * tx2 + ty * ty2))
@@ -146,9 +177,17 @@ class Route(Readable):
         if gap > JOINT_GAP:
             words, why = "the joint of {before} and {after} must close", "{at} is {gap} from {other}"
             raise InvalidValue.in_words(name, words, reason=why, **values)
-        if kink > JOINT_KINK:
+        if kink >= CORNER_END and self.table[row, CORNER] > 0.0:
+            raise too_sharp(name, kink)
+        if kink > JOINT_KINK and self.table[row, CORNER] == 0.0:
             words, why = "the joint of {before} and {after} must be smooth", "at {at} the direction turns by {kink}"
             raise InvalidValue.in_words(name, words, reason=why, **values)
+
+    @property
+    def corners(self) -> Floats:
+        """s of every corner (N,) [m]."""
+        corners: Floats = self.table[self.table[:, CORNER] > 0.0, S_START]
+        return corners
 
     @property
     def _definition(self) -> tuple[object, ...]:
@@ -249,19 +288,22 @@ class Route(Readable):
         return -math.inf
 
     def sharpest_before(self, s: float) -> float:
-        """Upper bound of the |curvature| of the whole route [1/m]."""
-        return float(self.sharpest[0] + np.abs(self.table[:, kernels.CURVATURE_SLACK]).max())
+        """Upper bound of the |curvature| of the whole route [1/m]; infinity at a corner."""
+        bends = float(self.sharpest[0] + np.abs(self.table[:, kernels.CURVATURE_SLACK]).max())
+        return math.inf if len(self.corners) else bends
 
     def tighter(self, radius: float) -> list[tuple[float, float, float]]:
-        """Stretches that may bend more tightly than a radius [m], see Path: rows of the table, joined if they meet."""
+        """Stretches that may bend more tightly than a radius [m], see Path: rows of the table, joined if they meet, and
+        corners, which are points."""
         table = self.table
         sharpest = np.abs(table[:, BENDS]).max(axis=1)
         tight = np.flatnonzero(sharpest * radius > 1.0)
         joined = np.split(tight, np.flatnonzero(np.diff(tight) > 1) + 1) if len(tight) else ()
-        return [
+        bends = [
             (float(table[rows[0], S_START]), float(table[rows[-1], S_END]), float(sharpest[rows].max()))
             for rows in joined
         ]
+        return sorted([*bends, *((s, s, math.inf) for s in self.corners.tolist())])
 
     def last_lag(self, chord: float) -> float:
         """0, because no bench folds on a route that a dance can follow."""

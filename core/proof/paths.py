@@ -14,7 +14,7 @@ from typing import Any
 from flint import acb, arb
 
 from core.dragon import Dragon
-from core.errors import InvalidValue, Parameter, format_number
+from core.errors import InvalidValue, Parameter, Quantity, format_number
 from core.language import Listed, counted, say
 from core.paths import pieces
 from core.paths.clothoid_turn import ClothoidTurn
@@ -48,6 +48,10 @@ def recorded_path(path: Spiral | Route) -> dict[str, Any]:
         free = path.exit_radius != path.entry_radius
         names = (*(name for name in (FREE_TURN if free else TURN) if name != "start_turns"), "start_turns")
         return {"kind": "free_turn" if free else "turn"} | {name: getattr(path, name) for name in names}
+    if len(path.corners):
+        rule = "path must be smooth at {at}, where it has a corner, for a proof in ball arithmetic"
+        why = "on such a path a dance is checked in double precision, with bounds on its rounding"
+        raise InvalidValue.in_words("path", rule, reason=why, at=Quantity(float(path.corners[0]), "m", 6))
     recorded = []
     for k, piece in enumerate(path.pieces):
         if not isinstance(piece, pieces.Line | pieces.Arc | pieces.Coil):

@@ -13,6 +13,7 @@ from tests.campaigns import hunting
 # Module of each campaign, and what it judges.
 CAMPAIGNS = {
     "tests.campaigns.hunt_contacts": "first contacts, least clearances and verdicts on any path, with passages",
+    "tests.campaigns.hunt_corners": "the same on lines with corners, and handles and speeds there",
     "tests.campaigns.hunt_bends": "benches on routes with bends of any radius",
     "tests.campaigns.hunt_encounters": "first encounters of two to five dragons on one clock",
     "tests.campaigns.hunt_turns": "turns with any entry and exit, and long spirals",

@@ -131,16 +131,16 @@ class SlowLook(Samples):
         super().__init__(lambda times: slow.clearance(times)[0], travels)
 
 
-def random_case(seed, case):
+def random_case(seed, case, any_path=None, slow_route=SlowRoute):
     """dance, margin, stop, and the slow look at it; raises: BenchDragonError for what core refuses"""
     rng = hunting.generator(seed, case)
     dragon = random_dragon(rng)
-    path = (blended_route if case % 8 in (0, 5, 7) else random_path)(rng, dragon)
+    path = (any_path or (blended_route if case % 8 in (0, 5, 7) else random_path))(rng, dragon)
     dance = Dance(dragon, path, 1.0, random_passages(rng))
     is_spiral = isinstance(path, Spiral)
     start = dance.begin - (rng.uniform(0.0, 8.0) if is_spiral and rng.uniform() < 0.3 else 0.0)
     stop = None if rng.uniform() < 0.6 else float(start + (dance.end.time - start) * rng.uniform(0.3, 1.0))
-    slow = SlowDance.of(dragon, path) if is_spiral else SlowRoute.of(dragon, path)
+    slow = SlowDance.of(dragon, path) if is_spiral else slow_route.of(dragon, path)
     ends = slow.end() if stop is None else travelled(dance, stop)
     look = SlowLook(
         slow, travelled(dance, start), RUN * min(ends, dance.end.time) if stop is None and is_spiral else ends

@@ -9,10 +9,10 @@ from core import (
     first_contact,
     venue_clearance,
 )
-from tests.campaigns import hunt_contacts, hunt_encounters, hunt_turns, hunt_venues, hunting
+from tests.campaigns import hunt_contacts, hunt_corners, hunt_encounters, hunt_turns, hunt_venues, hunting
 from tests.support.depth import examples, further
 
-CAMPAIGNS = hunt_encounters, hunt_venues, hunt_contacts, hunt_turns
+CAMPAIGNS = hunt_encounters, hunt_venues, hunt_contacts, hunt_turns, hunt_corners
 # Cases of a small part, of which the first ones are those of every run.
 FEW = 6
 MANY = examples(25, 200)

@@ -59,6 +59,7 @@ EXPRESSIONS = {
     "long coil": "core.trajectory(Dance(Dragon(6), core.Route([core.Coil(0.3, 1e4, 9.0, rotation=1.0)]), 1.3), [1e4])",
     "clothoids": "core.trajectory(Dance(Dragon(6), core.Route([core.Line((0, 0), (20, 0)), core.Clothoid((20, 0), 0, "
     "0, 0.6, 9), core.Clothoid(core.Clothoid((20, 0), 0, 0, 0.6, 9).end, 2.7, 0.6, -0.4, 30)])), [20.0, 31.0, 52.0])",
+    "corners": "core.check(Dance(Dragon(6), core.Legs([(0, 0), (30, 0), (36, 5), (42, 3)], [0, 1, 2], radius=0)))",
     "first excess": "core.extremes.speed.first_excess(Dance(Dragon(20), Turn(1.7)), 1.5, start=0.0, stop=30.0)",
     "first excess before a fold": "core.extremes.speed.first_excess(Dance(Dragon(4), Spiral(1.2, 3.0)), 3.0)",
     "minimum pitch": "core.minimum_pitch(Dragon(10), turning_radius=2.5, start_turns=5.0)",

@@ -93,15 +93,19 @@ def followed_slowly(route, chord):
 
 def twisted(rng, run_up):
     """A random route that begins with a straight run-up [m] and goes on with arcs down to a radius of 0.1 m, coils and
-    clothoids; None if its pieces are impossible."""
+    clothoids, and corners of up to 86 degrees; None if its pieces are impossible."""
     pen = Pen()
     pen.line(run_up)
-    for kind in rng.choice(["line", "arc", "arc", "arc", "coil", "clothoid"], rng.integers(2, 7)):
+    for kind in rng.choice(["line", "arc", "arc", "arc", "corner", "corner", "coil", "clothoid"], rng.integers(2, 7)):
         if kind == "line":
             pen.line(rng.uniform(0.1, 3.0))
         elif kind == "arc":
             radius = 10.0 ** rng.uniform(-1.0, 0.5)
             pen.arc(radius, rng.choice([-1.0, 1.0]) * rng.uniform(0.1, min(4.0, 2.5 / radius)))
+        elif kind == "corner":
+            pen.line(rng.uniform(0.1, 1.5))
+            pen.heading += rng.choice([-1.0, 1.0]) * rng.uniform(0.1, 1.5)
+            pen.line(rng.uniform(0.1, 1.5))
         elif kind == "coil":
             turns = rng.uniform(0.3, 2.5)
             pen.coil(rng.uniform(0.6, 2.0), turns, turns + rng.choice([-0.2, 0.5]))

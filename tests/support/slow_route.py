@@ -118,3 +118,24 @@ class SlowRoute(SlowDance):
             s, points = self.behind(s, rows[-1], chord)
             rows.append(points)
         return in_plane(np.stack(rows, axis=1))
+
+
+@dataclass
+class SlowLines(SlowRoute):
+    """The same on lines with corners between them, where each next handle is on a circle and on one of the lines."""
+
+    def behind(self, s, leaders, chord):
+        """Arc lengths and points of the handles a chord behind leaders at s: the first point of a line so far."""
+        best, points = np.full(s.size, -np.inf), np.empty(s.size, complex)
+        joints = np.cumsum([-self.start, *map(piece_length, self.pieces)])
+        for k, piece in enumerate(self.pieces):
+            first, heading, _, _, length = clothoid_of(piece)
+            away = (leaders - first) * np.exp(-1j * heading)
+            half = np.sqrt(np.maximum(chord**2 - away.imag**2, 0.0))
+            for along in (away.real - half, away.real + half):
+                place = joints[k] + along
+                there = (np.abs(away.imag) <= chord) & (along <= length + CLOSE) & (place < s - 0.5 * chord)
+                better = there & ((along >= -CLOSE) | (k == 0)) & (place > best)
+                best = np.where(better, place, best)
+                points = np.where(better, first + along * np.exp(1j * heading), points)
+        return best, points

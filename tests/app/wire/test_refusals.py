@@ -468,7 +468,7 @@ MANY = {
 PATHS = {
     '{"kind": "route", "pieces": [LANE, {"kind": "arc", "centre": [60.1, 20], BEND}]}': "/pieces/1 0.1",
     '{"kind": "route", "pieces": [LANE, {"kind": "arc", "centre": [60, 20.1], BEND}]}': "/pieces/1 close",
-    '{"kind": "route", "pieces": [LANE, {"kind": "line", "start": [60, 0], "end": [60, 9]}]}': "/pieces/1 1.57",
+    '{"kind": "route", "pieces": [LANE, {"kind": "line", "start": [60, 0], "end": [60, 9]}]}': "/pieces/1 90",
     '{"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [0, 0]}]}': "/pieces/0 1e-06 0",
     '{"kind": "route", "pieces": [{"kind": "arc", "centre": [0, 0], "radius": 9, "start_angle": 0, "sweep": 0}]}': (
         "/pieces/0 0"

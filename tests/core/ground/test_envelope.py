@@ -10,6 +10,7 @@ from core import (
     Arc,
     Dance,
     Dragon,
+    Legs,
     Route,
     Spiral,
     Turn,
@@ -26,6 +27,7 @@ POSES = 10_000
 RING = 5.0  # radius of a round dance [m]
 WINDING = Waypoints(((0.0, 0.0), (25.0, 0.0), (35.0, 8.0), (28.0, 16.0), (10.0, 12.0)))
 MIXED = Dragon.of([3.4, 1.5, 2.2, 4.0, 2.2], [0.3, 0.5, 0.3, 0.2, 0.3], [0.2, 0.1, 0.275, 0.5, 0.275])
+ZIGZAG = Legs([(0.0, 0.0), (12.0, 0.0), (15.0, 4.0), (16.0, 4.0), (16.5, 7.0), (30.0, 7.0)], range(5), radius=0.0)
 ROUNDS = Dance(Dragon(6), Route([Arc((0.0, 0.0), RING, 0.0, 15.0)], start=40.0))
 WOUND = Dance(MIXED, Route([WINDING], start=15.0), 0.7)
 # Dances, each with start and stop [s].
@@ -34,6 +36,7 @@ DANCES = {
     "to the fold": (Dance(Dragon(20), Spiral()), 415.0, None),
     "the contest's turn": (Dance(Dragon(20), Turn(1.7)), -10.0, 50.0),
     "waypoints, benches of many sizes": (WOUND, None, None),
+    "corners": (Dance(Dragon(3), ZIGZAG), None, None),
     "rounds": (ROUNDS, None, None),
     "straight on": (Dance(Dragon(3), lane((0.0, 0.0), (20.0, 5.0), start=9.0)), None, None),
 }

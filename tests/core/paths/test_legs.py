@@ -23,6 +23,17 @@ def test_a_corner_of_straight_legs_is_rounded_by_an_arc_of_the_radius_or_as_larg
     assert 9.0 < Legs(CORNER, [0, 1], radius=400.0).pieces[1].radius < 10.0
 
 
+def test_without_a_radius_corners_stay_and_one_of_a_right_angle_or_more_is_refused_by_its_point():
+    flat = [(0.0, 0.0), (20.0, 0.0), (24.0, 8.0), (24.0, 20.0)]
+    path = Legs(flat, [0, 1, 2], radius=0.0)
+    assert_near(path.position(path.corners), flat[1:3], ON_THE_PATH)
+    assert path == Legs(flat, [0, 1, 2], radius=0.0)
+    for last, angle in (((12.0, 8.0), 116.565051), ((20.0, 0.0), 180.0)):
+        words = f"corner at path.points.2. must turn by less than 90 degrees, got {angle:.6g} degrees: no bench"
+        with pytest.raises(InvalidValue, match=words):
+            Legs([*flat[:3], last], [0, 1, 2], radius=0.0)
+
+
 @settings(max_examples=40, deadline=None)
 @given(st.lists(POINT, min_size=2, max_size=7, unique=True), st.sets(st.integers(0, 5)))
 def test_every_drawn_path_is_smooth_and_goes_through_its_points(points, legs):

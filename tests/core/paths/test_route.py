@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 
 from core import (
+    Arc,
     Dance,
     Line,
     Route,
@@ -25,6 +26,7 @@ CHORD_ERROR = 1e-11  # [m], at coordinates to 100 m
 PLACE_ERROR = 1e-9  # [m]: handles by a scan and brentq, each good to 1e-12 m, along a chain
 QUOTIENT_STEP = 1e-6  # [s]
 QUOTIENT_ERROR = 1e-4  # [m/s]: accelerations jump at joints, which moves a quotient by their size times the step
+QUARTER = Arc((5.0 - math.sin(0.5), math.cos(0.5)), 1.0, 0.5 - 0.5 * math.pi, 1.5)
 LENGTH = float(DRAGON.chords.sum())  # 16.4 m
 
 
@@ -36,11 +38,11 @@ def way(*points):
     "pieces, field, values",
     [
         (way((0, 0), (5, 0)) + way((5.25, 0), (9, 0)), "path.pieces.1", {"gap": Quantity(0.25, "m", 3)}),
-        (way((0, 0), (5, 0), (6, 0), (6, 1)), "path.pieces.2", {"kink": Quantity(0.5 * math.pi, "rad", 3)}),
-        (way((0, 0), (5, 0), (0, 0)), "path.pieces.1", {"kink": Quantity(math.pi, "rad", 3), "at": "(5, 0) m"}),
+        (way((0, 0), (5, 0), (6, 0), (6, 1)), "path.pieces.2", {"got": Quantity(90.0, "degrees", 6)}),
+        ([*way((0, 0), (5, 0)), QUARTER], "path.pieces.1", {"at": "(5, 0) m"}),
         ([], "path.pieces", {}),
     ],
-    ids=["a gap", "a kink", "back on itself", "none"],
+    ids=["a gap", "a right angle", "a kink", "none"],
 )
 def test_what_is_no_smooth_way_is_refused_with_its_joint_and_size(pieces, field, values):
     with refused(field, **values):

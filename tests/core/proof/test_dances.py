@@ -4,9 +4,9 @@ from functools import cache
 
 import pytest
 
-from core import Dance, Dragon, Spiral, Turn, first_contact
+from core import Dance, Dragon, Legs, Spiral, Turn, first_contact
 from core.contact.clearance import least_clearance
-from core.errors import OutsideRun, ProofRefused
+from core.errors import OutsideRun, ProofRefused, Quantity
 from core.proof import prove_clear, prove_collision_time, prove_contact, verify
 from tests.support.depth import thorough
 from tests.support.forgeries import assert_refused, stretches, through_json
@@ -108,6 +108,11 @@ def test_a_route_is_clear_to_its_end():
     assert certificate["claim"]["stop"] == HAIRPIN.end
     assert "the route ends before" in verify(certificate).statement
     assert_refused(certificate, "claim.stop += -2e-9", "not shown to end")
+
+
+def test_a_path_with_a_corner_is_refused_with_its_place():
+    with refused("path", at=Quantity(40.0, "m", 6)):
+        prove_clear(Dance(SMALL, Legs([(0.0, 0.0), (40.0, 0.0), (60.0, 20.0)], [0, 1], radius=0.0)))
 
 
 @pytest.mark.parametrize("field, query", [("start", {"start": 5.0}), ("stop", {"stop": 1e4})])
