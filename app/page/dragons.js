@@ -2,7 +2,7 @@
 
 import { Problem, Superseded } from "./api.js";
 import { joined, offsetOf, shiftedPath } from "./changes.js";
-import { SPAN, announceOpened, leftWords } from "./files.js";
+import { SPAN, announceOpened, leftWords, wishesIn, wishesOf } from "./files.js";
 import { benchesOf, numbersOfListed } from "./benches.js";
 import { EMPTY, THINGS, drawingOf, fromAddress, isArea, isWhole, keptVenueOf, venueOf } from "./drawing.js";
 import { $, button, download, hide, make, numberIn, textButton } from "./elements.js";
@@ -189,7 +189,7 @@ export class Dragons {
       return announceOpened(name, unread, leftWords(left));
     }
     const numbers = Object.fromEntries(CONTACT.map((one) => [one, typeof content[one] === "number" ? String(content[one]) : this.state.initial(one)]));
-    this.#take(records, 0, { ...this.#valuesOf(records[0], square), ...numbers, start_clock: clock, begin_clock: begins, ...others });
+    this.#take(records, 0, { ...this.#valuesOf(records[0], square), ...numbers, ...wishesOf(content), start_clock: clock, begin_clock: begins, ...others });
     announceOpened(name, unread);
   }
 
@@ -418,7 +418,7 @@ export class Dragons {
   #kept() {
     const [records, venue, { dances, ...others }] = [this.#records, keptVenueOf(this.state.get("drawing")), this.#file()];
     const own = dances.map(({ name, ...dance }, k) => ({ ...(records[k].name && { name }), ...dance, ...(records[k].colour && { colour: records[k].colour }) }));
-    return { dances: own, ...others, ...(venue && { venue }) };
+    return { dances: own, ...others, ...(venue && { venue }), ...wishesIn(this.state) };
   }
 
   /** What tells one performance from another, in every language. */

@@ -4,7 +4,7 @@ import { aligned, copied, figured, inserted, isFigure, moved, pointsOf, removed,
 import { LANE_RADIUS, THINGS, freeName, isLine, place, yardOf } from "./drawing.js";
 import { $, $$, make, onClick } from "./elements.js";
 import { announce } from "./overlays.js";
-import { extent, onBorder, rectangle, streetLength } from "./square.js";
+import { extent, isInside, onBorder, rectangle, streetLength } from "./square.js";
 import { between, say } from "./text.js";
 import { decimetres, nearestLeg, squared, thingUnder, thingsWithin } from "./touch.js";
 
@@ -350,11 +350,19 @@ export class Editor {
   #placeGrips() {
     if (!this.whole && !this.hasFigure) return;
     const { view } = this.dance;
-    const shown = (this.hasFigure ? this.#drawing : this.whole).points.map((point) => view.toScreen(...point));
+    const shown = (this.hasFigure ? this.#danced : this.whole.points).map((point) => view.toScreen(...point));
     const reach = shown.length > 1 ? GRIP_FAR : Math.max((this.thing.radius ?? 0) * view.scale, GRIP_FAR);
     const { width, height, middle } = extent(shown);
     const places = { size: [middle[0] + width / 2 + reach, middle[1] + (shown.length > 1 ? height / 2 + reach : 0)], turn: [middle[0], middle[1] - height / 2 - 1.5 * reach], move: middle };
-    for (const [kind, [x, y]] of Object.entries(places)) this.#grips[kind].style.transform = `translate(${x}px, ${y}px)`;
+    const inside = (at, size) => Math.min(Math.max(at, GRIP_FAR), size - GRIP_FAR);
+    for (const [kind, [x, y]] of Object.entries(places)) this.#grips[kind].style.transform = `translate(${inside(x, view.width)}px, ${inside(y, view.height)}px)`;
+  }
+
+  /** The points of a figure, without those in streets. */
+  get #danced() {
+    const { points } = this.#drawing;
+    const danced = points.filter((point) => isInside(yardOf(this.#drawing), point));
+    return danced.length > 1 ? danced : points;
   }
 
   #grip(kind) {

@@ -36,6 +36,13 @@ export function announceOpened(name, unread, notes = []) {
 /** Say which things of a file have no room beside those that are there. */
 export const leftWords = (left) => (left.length ? [say("Your square stays; these of the file are left out: {names}.", { names: left.map(({ name }) => say("“{name}”", { name })).join(between()) })] : []);
 
+/** What the next proposed dance is wished for, in a FILE; and the same of a FILE as texts of the state. */
+export function wishesIn(state) {
+  const { ends, laps } = state.texts(["ends", "laps"]);
+  return ends || laps ? { wishes: { ...(ends && { ends }), ...(laps && { laps }) } } : {};
+}
+export const wishesOf = (/** @type {any} */ { wishes }) => ({ ends: wishes?.ends ?? "", laps: wishes?.laps ?? "" });
+
 export class Files {
   /**
    * steps: receives changes; questions: has the shown dance
@@ -172,7 +179,7 @@ export class Files {
     if (!venue && !isDance) Object.assign(opened, { things, origin, grid, yard });
     if (!isDance) opened.limit = limit;
     // A dance has its own speeds, times and benches, or none.
-    const others = isDance ? { csv, ...paceTexts(content), ...clocksOf(content) } : {};
+    const others = isDance ? { csv, ...paceTexts(content), ...clocksOf(content), ...wishesOf(content) } : {};
     this.steps.change({ ...this.state.changesOf("route"), ...numbers, ...others, time: null, view: null, drawing: opened });
     const unread = SPAN.filter((one) => typeof content[one] === "number" && content[one] !== opened[one]);
     announceOpened(name, unread, content.notes);
@@ -187,7 +194,7 @@ export class Files {
   save() {
     const dance = this.questions.drawn();
     const venue = keptVenueOf(dance.drawing);
-    const text = JSON.stringify({ ...this.questions.checkBody(dance), ...(venue && { venue }) }, null, 2);
+    const text = JSON.stringify({ ...this.questions.checkBody(dance), ...(venue && { venue }), ...wishesIn(this.state) }, null, 2);
     download(new Blob([text], { type: "application/json" }), "dance.json");
     announceSaved("dance.json", dance.drawing);
   }

@@ -445,6 +445,7 @@ function listen() {
   for (const button of $$("[data-lang]")) button.addEventListener("click", () => state.set({ lang: button.dataset.lang }));
   for (const button of $$("[data-path]")) button.addEventListener("click", () => (button.dataset.path === "route" ? openRoute().then((one) => one.choose()) : state.choosePath(button.dataset.path)));
   for (const { dataset } of $$("[data-section]")) onClick(`[data-section=${dataset.section}]`, () => showSection(dataset.section));
+  onClick("#keep-drawing", () => $(state.get("dances") ? "#dragons-save" : "#save").click());
   onClick("#to-keep", async () => {
     await showSection("keep");
     $("#keep-title").focus({ preventScroll: true });

@@ -12,7 +12,7 @@ import { knotsOf } from "./knots.js";
 import { clockIn, secondsBetween } from "./passages.js";
 import { pending } from "./pending.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
-import { circle, extent, lShape, rectangle, tShape, uShape } from "./square.js";
+import { circle, extent, lShape, rectangle, shapeOf, tShape, uShape } from "./square.js";
 import { roundedRoute } from "./walk.js";
 import { between, language, phrase, say, sentencesOf, writeTexts } from "./text.js";
 
@@ -30,6 +30,8 @@ const SHAPES = {
   t: { name: phrase("a T"), draw: tShape },
   u: { name: phrase("a U"), draw: uShape },
 };
+/** Those of which something is cut out. @type {[string, any][]} */
+const CUT = [["l", lShape], ["t", tShape], ["u", uShape]];
 /** What is cut from a square that is no rectangle, at first [m]. */
 const NOTCH = ["14", "10"];
 /** Size of a square before any is drawn [m], and the largest one. */
@@ -111,8 +113,8 @@ export class Propose {
     this.shape = make("select", { id: "place-shape", "data-label": "Shape of the square", onchange: () => this.show() }, ...Object.entries(SHAPES).map(([value, { name }]) => make("option", { value, "data-text": name })));
     const take = (id, label, draw) => textButton("Draw it", draw, { id, "data-label": label });
     this.dragon = DRAGON.map((name) => field(LABELS[name], { onchange: ({ target }) => this.#setNumber(name, target) }));
-    this.ends = field(phrase("It must end by"), { id: "ends", inputMode: "text", onchange: ({ target }) => this.state.set({ ends: target.value.trim() }), "aria-describedby": "ends-wrong" });
-    this.laps = field(phrase("Times around a ring or an eight"), { id: "laps", onchange: ({ target }) => this.state.set({ laps: target.value.trim() }), "aria-describedby": "ends-wrong" });
+    this.ends = field(phrase("It must end by"), { id: "ends", inputMode: "text", onchange: ({ target }) => this.steps.change({ ends: target.value.trim() }), "aria-describedby": "ends-wrong" });
+    this.laps = field(phrase("Times around a ring or an eight"), { id: "laps", onchange: ({ target }) => this.steps.change({ laps: target.value.trim() }), "aria-describedby": "ends-wrong" });
     this.objective = make("select", { "data-label": "Best is", id: "objective" }, ...Object.entries(OBJECTIVES).map(([value, words]) => make("option", { value, "data-text": words })));
     this.ask = textButton("Propose a dance", () => this.#ask(), { id: "propose", className: "main" });
     this.words = make("p", { role: "status", id: "proposed" });
@@ -182,7 +184,7 @@ export class Propose {
   }
 
   #setNumber(name, target) {
-    this.state.set({ [name]: times(String(numberIn(target.value)), 1 / FACTORS[name]) });
+    this.steps.change({ [name]: times(String(numberIn(target.value)), 1 / FACTORS[name]) });
   }
 
   /** Draw the square of the chosen shape. */
@@ -436,6 +438,15 @@ export class Propose {
 
   #showSizes(yard) {
     const { width, height } = yard.length ? extent(yard) : { width: WIDTH, height: HEIGHT };
+    if (yard !== this.sized) {
+      // A square that was opened has its shape and its sizes here too, to be drawn again.
+      const known = yard.length > 4 && yard.length < 9 ? shapeOf(yard, CUT) : null;
+      if (known && !this.notch.some(({ typed }) => typed)) {
+        this.shape.value = known.name;
+        this.notch.forEach((one, k) => (one.value = String(known.cut[k])));
+      }
+      this.sized = yard;
+    }
     // Only a round square has a diameter: the field keeps its number beside any other.
     const isRound = yard.length > 4 && Math.abs(width - height) < SAME;
     const values = [width, height, isRound || !this.sizes[2].value ? Math.min(width, height) : null];

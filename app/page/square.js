@@ -65,6 +65,19 @@ export function measures(points, isClosed) {
   return { lengths, angles };
 }
 
+/** What a square of one of these shapes looks like as numbers: {name, cut: [width, length] of what is cut out}; null for another square. shapes: [name, draw] */
+export function shapeOf(ring, shapes) {
+  const { width, height, middle } = extent(ring);
+  const lengths = measures(ring, true).lengths.map(decimals);
+  const drawn = JSON.stringify(ring);
+  const cuts = lengths.flatMap((across) => lengths.map((deep) => [across, deep]));
+  for (const [name, draw] of shapes) {
+    const cut = cuts.find((one) => JSON.stringify(draw(width, height, ...one, middle)) === drawn);
+    if (cut) return { name, cut };
+  }
+  return null;
+}
+
 /** What a street has beyond the dragon, beside the margin, the stray and the overhang of a bench: a place to begin [m]. */
 const STREET_MORE = 0.7;
 

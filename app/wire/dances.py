@@ -241,11 +241,21 @@ class PathFields(HeadSpeed, DragonFields, strict=True):
         return music.passages
 
 
+class Wishes(Wire, strict=True):
+    """What a dance was wished for on the page when it was proposed, as typed there."""
+
+    ends: str | None = Field(None, max_length=40, description="When it must end: a time of day, or minutes")
+    laps: str | None = Field(None, max_length=40, description="How often it goes around")
+
+
 class DanceFields(PathFields, strict=True):
     """A dragon on a path, as the body of a request."""
 
     start_clock: StartClock = None
     begin_clock: BeginClock = None
+    wishes: Wishes | None = Field(
+        None, description="What the next dance on the page is wished for; no answer depends on it"
+    )
 
 
 Starting = TypeVar("Starting", bound=DanceFields)

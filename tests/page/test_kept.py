@@ -29,7 +29,7 @@ ON_PATH = {"route", "corner", "walk", "begin", "start", *ON_EARTH}
 PROJECTS = {
     "drawn": (
         DRAWN | PLACE,
-        NUMBERS | PACE | {"limit": "1.7", "passages": "0.5@15m_0@5d", "start_clock": "19:30"},
+        NUMBERS | PACE | {"limit": "1.7", "passages": "0.5@15m_0@5d", "start_clock": "19:30", "ends": "20"},
         "#save",
     ),
     "walked": (
@@ -40,13 +40,12 @@ PROJECTS = {
     "other": ({"path": "route", "raw": COIL}, NUMBERS, "#save"),
     "several": (
         DRAWN | PLACE,
-        NUMBERS | PACE | {"limit": "2", "dances": DANCES, "begin_clock": "20:00"},
+        NUMBERS | PACE | {"limit": "2", "dances": DANCES, "begin_clock": "20:00", "ends": "20:20", "laps": "2"},
         "#dragons-save",
     ),
 }
-# How the page is looked at, and how long a dance may be that is proposed, which no file holds.
-LOOK = {"time": "2", "rate": "5", "follow": "true", "handle": "3", "view": "1,2,9", "lang": "zh", "door": "all"}
-VIEW = LOOK | {"ends": "20", "laps": "2"}
+# How the page is looked at, which no file holds.
+VIEW = {"time": "2", "rate": "5", "follow": "true", "handle": "3", "view": "1,2,9", "lang": "zh", "door": "all"}
 # Who is followed or chosen, and the drawing as a whole; then numbers that a dance on a drawn path has not.
 ELSEWHERE = {"bench", "dragon", "drawing", "speed_limit"}
 OF_SEVERAL = {"pitch", "start_turns", "turning_diameter", "ratio", "entry_radius", "exit_radius"}

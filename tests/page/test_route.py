@@ -300,7 +300,7 @@ def test_a_long_press_opens_the_menu_of_a_point_on_a_phone(open_page):
 
 
 def test_a_finger_drags_points_and_trees_on_a_phone_and_nothing_is_cut_off(open_page):
-    person = open_page(S_CURVE, locale="zh-CN", **PHONE).sees({VERDICT: "可以表演"}).presses("#edit")
+    person = open_page(S_CURVE, locale="zh-CN", **PHONE).sees({VERDICT: "可以表演"}).presses("#edit").settles()
     before = points(person)
     box = person.box(knot(2))
     person.swipes(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 0, -6)
