@@ -11,7 +11,7 @@ from functools import cached_property
 from app.cards.words import CardWords
 from app.wire.clocks import time_of_day
 from app.wire.texts import text_to_cell
-from core.language import say
+from core.language import joined, say
 from core.people.crew import Crew, Spell
 
 COLUMNS = (
@@ -45,20 +45,27 @@ class CrewWords:
         return max(one.end - one.begin for one in self.crew.spells)
 
     @property
-    def lack(self) -> list[str]:
-        """That the spares are too few for all changes, how many are enough, and how many benches never change."""
-        return lack_words(self.crew.enough, len(self.crew.unrelieved))
-
-    @property
     def changes(self) -> list[Spell]:
         """The spells that begin with a change, in order of time."""
         return [one for one in self.crew.spells if one.relieved is not None]
 
-
-def lack_words(enough: int, never: int) -> list[str]:
-    """That the spares are too few for all changes. enough: spares that are not; never: benches that never change"""
-    few = say("too few spares for all changes: {enough} are enough", enough=enough)
-    return [few] + ([say("{never} of the benches never change", never=never)] if never else [])
+    @property
+    def sentences(self) -> list[str]:
+        """How many people there are, how long anybody carries, and whether the spares are too few for all changes."""
+        crew, (minutes, seconds) = self.crew, divmod(int(self.longest), 60)
+        summary = say(
+            "{people} people, {spares} of them spare; {changes} changes; nobody carries longer than {longest} without "
+            "a break.",
+            people=crew.people, spares=crew.spares, changes=len(self.changes), longest=f"{minutes}:{seconds:02d}",
+        )  # fmt: skip
+        if crew.is_kept:
+            return [summary]
+        few = say(
+            "Too few spares: not everybody can go out at every change. {enough} spares are enough.", enough=crew.enough
+        )
+        never, benches = len(crew.unrelieved), len(crew.needed)
+        unchanged = say("{count} of {benches} benches never change.", count=never, benches=benches) if never else ""
+        return [summary, joined([few, unchanged])]
 
 
 def crew_csv(crew: CrewWords) -> bytes:

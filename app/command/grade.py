@@ -20,7 +20,6 @@ from app.files.disk import checked_output, ending_of, write_whole
 from app.files.workbooks import table_workbook
 from app.grade.class_table import Row, alike, rubric_of, team_points
 from app.grade.judged import MISSING, WRONG
-from app.grade.layout import SHEETS, TableKind
 from app.grade.reading import FILE_MAX
 from app.grade.report import (
     DiagnosisAnswer,
@@ -227,20 +226,14 @@ def _parts(answer: GradeAnswer) -> Iterator[Part]:
 
 
 def _typed(one: TypedAnswer) -> Iterator[Part]:
-    name, verdict = word(one.answer), word(one.verdict.value)
-    verdict += word("to_digits", digits=one.digits) if one.verdict == "right" else ""
-    verdict = word("and_breaks", verdict=verdict, breaks=one.breaks) if one.breaks else verdict
-    text = say("{name}: {text}", name=f"{one.found:.12g} {one.unit}", text=verdict)
-    yield Heading(say("{name}: {text}", name=name, text=text))
-    yield from (f"  {words}" for words in one.notes)
-    if one.verdict != "right":
-        yield "  " + word("is_right", right=f"{one.expected:.9f}", unit=one.unit)
+    yield Heading(say("{name}: {text}", name=one.title, text=one.headline))
+    yield from (f"  {words}" for words in one.sentences)
     yield from _diagnosis([*one.diagnosis, *one.possible])
     yield ""
 
 
 def _file(file: FileAnswer) -> Iterator[Part]:
-    yield Heading(say("{name}: {text}", name=file.file, text=word(file.verdict.value)))
+    yield Heading(say("{name}: {text}", name=file.file, text=file.headline))
     yield from (f"  {one}" for one in file.notes)
     for sheet in file.sheets:
         yield from _sheet(sheet)
@@ -251,19 +244,7 @@ def _file(file: FileAnswer) -> Iterator[Part]:
 
 
 def _sheet(sheet: SheetAnswer) -> Iterator[Part]:
-    verdict = word(sheet.verdict.value)
-    if sheet.verdict == "rounded" and sheet.decimals:
-        words = "rounded_to_decimal" if sheet.decimals == 1 else "rounded_to_decimals"
-        verdict = word(words, decimals=sheet.decimals)
-    title = sheet.sheet or word(SHEETS[TableKind(sheet.holds)])
-    counts = {"right": f"{sheet.right:,}", "cells": f"{sheet.cells:,}"}
-    yield "  " + word("sheet_line", title=title, verdict=verdict, **counts)
-    yield from (f"    {one}" for one in sheet.notes)
-    for name, cell in (("worst", sheet.worst), ("first", sheet.first)):
-        if cell and sheet.verdict in ("wrong", "rounded"):
-            values = {"found": f"{cell.found:.6f}", "expected": f"{cell.expected:.6f}", "time": f"{cell.time:.9g}"}
-            values["quantity"] = word("quantity_speed") if cell.quantity == "speed" else cell.quantity
-            yield "    " + word(f"{name}_cell", cell=cell.cell, handle=cell.handle, **values)
+    yield from (f"  {'  ' if k else ''}{one}" for k, one in enumerate(sheet.sentences))
     marks = set("".join(sheet.picture))
     # Marks that are all alike do not show where the errors are.
     if len(marks) > 1 and marks & {WRONG, MISSING}:

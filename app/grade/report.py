@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from decimal import Decimal
 from pathlib import PurePath
+from typing import Any
 
 from pydantic import Field
 
@@ -39,7 +40,7 @@ from app.wire.fields import Answer
 from core import Budget, InvalidValue, TooMuchWork
 from core.errors import Quantity, too_much
 from core.kernels import Halted
-from core.language import joined
+from core.language import joined, say
 
 # Endings of workbook files.
 WORKBOOK_ENDINGS = (".xlsx", ".xlsm")
@@ -85,6 +86,7 @@ class SheetAnswer(Answer):
     picture: places of the wrong cells: lines for some handles, the head first, with marks for some instants: `.`
         right, `o` rounded, `#` wrong, `?` missing
     notes: remarks for the reader, in words
+    sentences: all of it for the reader, with these remarks
     """
 
     sheet: str
@@ -98,6 +100,7 @@ class SheetAnswer(Answer):
     first: CellAnswer | None
     picture: list[str]
     notes: list[str]
+    sentences: list[str] = Field(default=[])
 
 
 class DiagnosisAnswer(Answer):
@@ -146,6 +149,7 @@ class FileAnswer(Answer):
     sheets: its sheets
     rubric: the rubric of the contest's reviewers
     notes: remarks for the reader, in words
+    headline: the verdict in words
     """
 
     file: str
@@ -156,6 +160,7 @@ class FileAnswer(Answer):
     sheets: list[SheetAnswer]
     rubric: list[CriterionAnswer]
     notes: list[str]
+    headline: str
 
 
 class TypedAnswer(Answer):
@@ -172,6 +177,9 @@ class TypedAnswer(Answer):
     notes: remarks for the reader, in words
     diagnosis: the shortcut that gives the number, if its digits tell it from chance; empty if nothing fits
     possible: the shortcut that gives the number, if its digits are too few for a diagnosis
+    title: what it answers, and the number, in words
+    headline: the verdict in words
+    sentences: what else there is to say, with these remarks
     """
 
     answer: str
@@ -184,6 +192,9 @@ class TypedAnswer(Answer):
     notes: list[str]
     diagnosis: list[DiagnosisAnswer]
     possible: list[GuessAnswer] = Field(default=[])
+    title: str
+    headline: str
+    sentences: list[str]
 
 
 class GradeAnswer(Answer):
@@ -218,8 +229,9 @@ def unreadable(name: str, why: Note) -> FileAnswer:
     readable, remark = readable_name(name)
     notes = [str(one) for one in (why, remark) if one]
     return FileAnswer(
-        file=readable, workbook=None, verdict=Rating.UNREADABLE, diagnosis=[], sheets=[], rubric=[], notes=notes
-    )
+        file=readable, workbook=None, verdict=Rating.UNREADABLE, diagnosis=[], sheets=[], rubric=[], notes=notes,
+        headline=word(Rating.UNREADABLE.value),
+    )  # fmt: skip
 
 
 def too_long(data: bytes, budget: Budget) -> TooMuchWork:
@@ -259,6 +271,7 @@ def _graded(name: str, data: bytes, budget: Budget) -> FileAnswer:
         sheets=sheets,
         rubric=[CriterionAnswer(criterion=one.name, met=one.met, words=str(one.sentence)) for one in rubric],
         notes=[str(one) for one in notes],
+        headline=word(verdict.value),
     )
 
 
@@ -274,17 +287,27 @@ def typed(name: str, text: str) -> TypedAnswer:
     decimals = -int(exponent)
     grade = graded_number(name, value, 0.5 * 10.0 ** -min(decimals, 12))
     ungraded = 0 if grade.verdict is Rating.WRONG else max(decimals - DECIMALS_OF_CONTEST, 0)
+    count, breaks = len(digits) - ungraded, str(grade.breaks or "")
+    notes = [str(one) for one in [*reading, *grade.notes]]
+    headline, sentences = word(grade.verdict.value), notes
+    if grade.verdict is Rating.RIGHT:
+        headline += word("to_digits", digits=count)
+    else:
+        sentences = [*notes, word("is_right", right=f"{right_answer(name):.9f}", unit=UNITS[name])]
     return TypedAnswer(
         answer=name,
         verdict=grade.verdict,
-        breaks=grade.breaks and str(grade.breaks),
+        breaks=breaks or None,
         found=value,
         expected=right_answer(name),
         unit=UNITS[name],
-        digits=len(digits) - ungraded,
-        notes=[str(one) for one in [*reading, *grade.notes]],
+        digits=count,
+        notes=notes,
         diagnosis=_diagnoses([one for one in grade.findings if one.chance <= CERTAIN]),
         possible=_guessed(grade.findings),
+        title=say("{name}: {text}", name=word(name), text=f"{value:.12g} {UNITS[name]}"),
+        headline=word("and_breaks", verdict=headline, breaks=breaks) if breaks else headline,
+        sentences=sentences,
     )
 
 
@@ -314,7 +337,7 @@ def _sheet(one: JudgedSheet) -> SheetAnswer:
         notes.append(note(words, count=f"{one.cells - one.missing:,}", decimals=one.decimals))
     if is_rounded and not one.is_rounded:
         notes.append(note("not_rounded", written=int(one.digits.max()), decimals=one.decimals))
-    return SheetAnswer(
+    return _worded(
         sheet=str(one.title),
         holds=one.table.kind.value,
         verdict=one.verdict,
@@ -327,6 +350,24 @@ def _sheet(one: JudgedSheet) -> SheetAnswer:
         picture=one.picture(),
         notes=[str(known) for known in notes],
     )
+
+
+def _worded(**own: Any) -> SheetAnswer:
+    """A sheet with its sentences. own: its other fields"""
+    sheet = SheetAnswer(**own)
+    verdict = word(sheet.verdict.value)
+    if sheet.verdict is Rating.ROUNDED and sheet.decimals:
+        form = "rounded_to_decimal" if sheet.decimals == 1 else "rounded_to_decimals"
+        verdict = word(form, decimals=sheet.decimals)
+    counts = {"right": f"{sheet.right:,}", "cells": f"{sheet.cells:,}"}
+    title = sheet.sheet or word(SHEETS[TableKind(sheet.holds)])
+    sentences = [word("sheet_line", title=title, verdict=verdict, **counts), *sheet.notes]
+    for name, cell in (("worst", sheet.worst), ("first", sheet.first)):
+        if cell and sheet.verdict in (Rating.WRONG, Rating.ROUNDED):
+            values = {"found": f"{cell.found:.6f}", "expected": f"{cell.expected:.6f}", "time": f"{cell.time:.9g}"}
+            quantity = word("quantity_speed") if cell.quantity == "speed" else cell.quantity
+            sentences.append(word(f"{name}_cell", cell=cell.cell, handle=cell.handle, quantity=quantity, **values))
+    return sheet.model_copy(update={"sentences": sentences})
 
 
 def _cell(one: JudgedSheet, at: tuple[int, ...]) -> CellAnswer:
@@ -347,7 +388,7 @@ def _cell(one: JudgedSheet, at: tuple[int, ...]) -> CellAnswer:
 
 def _lacking(kind: TableKind, cells: int) -> SheetAnswer:
     sentence = word("no_sheet", kind=word(SHEETS[kind]))
-    return SheetAnswer(
+    return _worded(
         sheet="", holds=kind.value, verdict=Rating.INCOMPLETE, decimals=None, cells=cells, right=0, missing=cells,
         worst=None, first=None, picture=[], notes=[sentence],
     )  # fmt: skip

@@ -4,7 +4,7 @@ import { Problem, Superseded } from "./api.js";
 import { $, button, download, make, numberIn, textButton } from "./elements.js";
 import { announce } from "./overlays.js";
 import { clockIn } from "./passages.js";
-import { benchTitle, between, language, phrase, say, sentencesOf } from "./text.js";
+import { benchTitle, between, language, phrase, say } from "./text.js";
 
 /** Numbers of the form: the field of the service, its key, its first value; an empty one is left to the service. */
 const NUMBERS = { head_people: [phrase("on the head"), "8"], bench_people: [phrase("on every other bench"), "2"], spares: [phrase("spares"), "0"], shift: [phrase("shift [s]"), ""], rest: [phrase("least rest [s]"), "0"] };
@@ -19,6 +19,8 @@ export class Crew {
   #answer = null;
   #of = null;
   #problem = null;
+  /** The language of the last question. */
+  #language = "";
 
   /**
    * player: knows the time shown
@@ -73,7 +75,7 @@ export class Crew {
 
   async #ask() {
     if (!this.questions.dance) return;
-    [this.#problem, this.#of] = [null, this.#dance];
+    [this.#problem, this.#of, this.#language] = [null, this.#dance, language()];
     try {
       this.#answer = await this.service.ask("crew", "crew", { body: this.#question() });
     } catch (error) {
@@ -100,14 +102,12 @@ export class Crew {
 
   /** After an answer, a change of the language or of the dance. */
   show() {
-    if (this.#problem && this.#problem.language !== language()) return this.#ask();
+    if ((this.#problem ?? this.#answer) && this.#language !== language() && this.#of === this.#dance) return this.#ask();
     if (this.#problem) return this.result.replaceChildren(make("p", { className: "error", textContent: this.#problem.sentence }));
     // People of another dance are none of this one.
     if (!this.#answer || this.#of !== this.#dance) return this.result.replaceChildren();
-    const { people, spares, changes, longest, enough, unrelieved, at, carriers, start, stop } = this.#answer;
-    const parts = [make("p", { textContent: say("{people} people, {spares} of them spare; {changes} changes; nobody carries longer than {longest} without a break.", { people, spares, changes, longest: minutes(longest) }) })];
-    const never = unrelieved.length ? [say("{count} of {benches} benches never change.", { count: unrelieved.length, benches: this.questions.dance.numbers.benches })] : [];
-    if (spares < enough) parts.push(make("p", { className: "error", textContent: sentencesOf([say("Too few spares: not everybody can go out at every change. {enough} spares are enough.", { enough }), ...never]) }));
+    const { sentences: [summary, ...lacks], at, carriers, start, stop } = this.#answer;
+    const parts = [make("p", { textContent: summary }), ...lacks.map((textContent) => make("p", { className: "error", textContent }))];
     if (at) parts.push(this.#roll(at));
     this.result.replaceChildren(...parts, this.#people(carriers, start, stop));
   }

@@ -491,8 +491,7 @@ export class Dragons {
       return this.judgement.refuse({ ...refusal.problem, sentence: name + refusal.problem.sentence });
     }
     if (dance?.kind !== "dances") return;
-    const { outcome, sentences, certificate } = dance.answer;
-    this.judgement.show({ ...dance, lines: outcome === "clear" ? sentences : [], known: [certificate.method] }, null);
+    this.judgement.show({ ...dance, known: [dance.answer.certificate.method] });
     $("#stage").setAttribute("aria-busy", "false");
   }
 }

@@ -49,9 +49,6 @@ export function pathOf({ points, straight, radius, begin, path }) {
   return drawn;
 }
 
-/** True for two drawings of the same path. */
-export const isSamePath = (a, b) => a === b || JSON.stringify(pathOf(a)) === JSON.stringify(pathOf(b));
-
 const closed = (points) => [...points, points[0]];
 const needs = { area: 3, block: 3, circle: 1, wall: 2, gate: 1, lane: 2 };
 /** True if a thing has as many points as its kind needs. */

@@ -2,7 +2,7 @@
 
 import { Beside } from "./beside.js";
 import { Change } from "./change.js";
-import { EMPTY, isSamePath, walkOf, yardOf } from "./drawing.js";
+import { EMPTY, walkOf, yardOf } from "./drawing.js";
 import { Editor } from "./edit.js";
 import { $, $$, hide, make, textButton } from "./elements.js";
 import { Figure } from "./figure.js";
@@ -187,14 +187,12 @@ export class Drawn {
 
   /** Show the service's verdict on the dance. */
   judged() {
-    const { dance, course, refusals } = this.questions;
+    const { dance, refusals } = this.questions;
     if (dance?.kind !== "route" || !this.#isRoute || refusals.has("contact")) return;
     if (this.editor.base) this.change.quick(dance, this.editor.base);
     if (!dance.failures.includes(this.#failure)) this.#failure = null;
     this.#remark = this.propose.remark;
-    // The path of an earlier drawing is not the one on which this dance was judged.
-    const own = course && isSamePath(course.drawing, dance.drawing) ? course : null;
-    this.judgement.show({ ...dance, lines: [this.#remark] }, own);
+    this.judgement.show({ ...dance, lines: [this.#remark] });
     this.form.offer(dance);
   }
 

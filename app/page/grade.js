@@ -3,23 +3,7 @@
 import { Problem, Superseded } from "./api.js";
 import { ClassTable, dropped, handedIn, rowOf } from "./class.js";
 import { $, bearer, make, onClick } from "./elements.js";
-import { phrase, say } from "./text.js";
-
-/** Verdicts on a file or an answer. @type {Phrases} */
-const VERDICTS = {
-  right: "right",
-  rounded: "rounded",
-  incomplete: "incomplete",
-  infeasible: "infeasible",
-  wrong: "wrong",
-  unreadable: "unreadable",
-};
-/** What a sheet holds. @type {Phrases} */
-const HOLDS = {
-  position: "positions",
-  speed: "speeds",
-  contact: "first contact",
-};
+import { say } from "./text.js";
 
 /** Answers that may be typed. @type {Phrases} */
 const ANSWERS = {
@@ -157,13 +141,7 @@ const paragraph = (textContent, className = "") => make("p", { textContent, clas
 
 /** The boxes of one answer of the service. */
 function boxes({ files, answers }) {
-  const typed = answers.map((one) => {
-    const { found, expected, unit, verdict, digits, notes } = one;
-    const words = verdict === "right" ? [say("Graded to its significant digits: {digits}.", { digits }), ...notes] : [say("The right value is {value} {unit}.", { value: expected.toFixed(9), unit }), ...notes];
-    const word = say(VERDICTS[verdict]);
-    const headline = one.breaks ? say("{verdict}, {breaks}", { verdict: word, breaks: one.breaks }) : word;
-    return box(`${say(ANSWERS[one.answer])}${say(": ")}${found} ${unit}`, verdict, headline, [...words.map((line) => paragraph(line)), ...diagnosis(one)]);
-  });
+  const typed = answers.map((one) => box(one.title, one.verdict, one.headline, [...one.sentences.map((line) => paragraph(line)), ...diagnosis(one)]));
   return [...typed, ...files.map(fileBox)];
 }
 
@@ -182,20 +160,11 @@ function fileBox(file) {
   const points = file.rubric.map(({ met, words }) => make("li", { className: `met-${met}`, textContent: words }));
   const rubric = make("details", {}, make("summary", { textContent: say("The points of the reviewers") }), make("ul", {}, ...points));
   const notes = file.notes.map((one) => paragraph(one));
-  return box(file.file, file.verdict, say(VERDICTS[file.verdict]), [...notes, ...diagnosis(file), ...file.sheets.flatMap(sheetParts), ...(points.length ? [rubric] : [])]);
+  return box(file.file, file.verdict, file.headline, [...notes, ...diagnosis(file), ...file.sheets.flatMap(sheetParts), ...(points.length ? [rubric] : [])]);
 }
 
-function sheetParts(sheet) {
-  const { right, cells, decimals, worst, first, picture, notes } = sheet;
-  const title = sheet.sheet || say(HOLDS[sheet.holds]);
-  const verdict = decimals && sheet.verdict === "rounded" ? say(decimals === 1 ? phrase("rounded to 1 decimal") : phrase("rounded to {decimals} decimals"), { decimals }) : say(VERDICTS[sheet.verdict]);
-  const parts = [paragraph(say("{title}: {verdict}, {right} of {cells} cells right", { title, verdict, right, cells }), "sheet"), ...notes.map((one) => paragraph(one))];
-  if (["wrong", "rounded"].includes(sheet.verdict))
-    for (const [template, cell] of /** @type {[string, any][]} */ ([[phrase("Worst: {cell}, {handle}, {quantity} at {time} s is {found}; the right value is {expected}."), worst], [phrase("First: {cell}, {handle}, {quantity} at {time} s is {found}; the right value is {expected}."), first]])) {
-      const { found, expected, time } = cell;
-      const quantity = cell.quantity === "speed" ? say("speed") : cell.quantity;
-      parts.push(paragraph(say(template, { ...cell, quantity, found: found.toFixed(6), expected: expected.toFixed(6), time: Number(time.toFixed(6)) })));
-    }
+function sheetParts({ picture, sentences: [summary, ...others] }) {
+  const parts = [paragraph(summary, "sheet"), ...others.map((one) => paragraph(one))];
   const marks = new Set(picture.join(""));
   // Marks that are all alike do not show where the errors are.
   if (marks.size > 1 && (marks.has("#") || marks.has("?"))) parts.push(drawn(picture), legend(picture.join("")));

@@ -5,9 +5,8 @@ import { TOO_LONG } from "./api.js";
 import { $, button, hide, make } from "./elements.js";
 import { formatNumber } from "./numbers.js";
 import { tell } from "./overlays.js";
-import { timeOfDay, wayAt } from "./passages.js";
 import { isPresetPath, isPresetVenue } from "./presets.js";
-import { phrase, say, sentencesOf } from "./text.js";
+import { phrase, say } from "./text.js";
 
 /** Verdicts on a dance. @type {Phrases} */
 const VERDICTS = {
@@ -23,8 +22,6 @@ const NEXT = {
 };
 const OUTCOMES = { passes: ["clear", "✓"], fails: ["contact", "✕"], undecided: ["undecided", "?"] };
 const DECIMALS = 6;
-/** Shortest part of a path before the head that is worth a word [m]. */
-const STANDS = 0.05;
 
 /** True for a dance in a square that stands here to begin with. */
 const isExample = ({ drawing }) => Boolean(drawing?.things.length) && isPresetPath(drawing) && isPresetVenue(drawing);
@@ -33,18 +30,6 @@ const isExample = ({ drawing }) => Boolean(drawing?.things.length) && isPresetPa
 export function radiiOf({ radius, least_radius: least }) {
   const digits = [2, 3, 4, 5].find((count) => radius.toFixed(count) !== least.toFixed(count)) ?? DECIMALS;
   return { radius: radius.toFixed(digits), least: least.toFixed(digits) };
-}
-
-/** A time with a minus sign, not a hyphen. */
-const signed = (time) => time.toFixed(2).replace("-", "−");
-
-/** Sentences of the way that the head walks, and of the part of the path on which the dragon stands before. */
-function wayWords({ begin, end, numbers, extras, clock }, { length, s }, time) {
-  const [first, last] = [begin, end].map((one) => wayAt(one, numbers.head_speed, extras.passages));
-  const stands = first - s[0];
-  const span = { way: (last - first).toFixed(1), time, from: signed(begin), to: signed(end) };
-  const way = say(Number(begin.toFixed(2)) && !clock ? "The head walks {way} m in {time} s; the clock of the picture runs from {from} s to {to} s." : "The head walks {way} m in {time} s.", span);
-  return [stands < STANDS ? way : sentencesOf([way, say("At the start the dragon stands on the first {stands} m of its path of {length} m.", { stands: stands.toFixed(1), length: length.toFixed(1) })])];
 }
 
 export class Judgement {
@@ -56,16 +41,10 @@ export class Judgement {
   }
 
   /** Show the verdict on a dance that the service has checked. dance: may have lines to add, and what is known of it */
-  show(dance, course) {
+  show(dance) {
     const [outcome, mark] = OUTCOMES[dance.verdict];
     const rows = dance.failures.map((failure) => this.#row([`${formatNumber(failure.time, DECIMALS, 2)} s`, failure.clock].filter(Boolean).join(" · "), failure.sentence, () => this.seek(failure)));
-    const { length } = course ?? {};
-    const time = (dance.end - dance.begin).toFixed(1);
-    const lines = length === undefined ? [] : Number(time) ? wayWords(dance, course, time) : [say("The path is {length} m long.", { length: length.toFixed(1) })];
-    lines.push(...(dance.lines ?? []));
-    const { clock } = dance;
-    const [start, end] = [dance.begin, dance.answer.end?.time ?? dance.end].map((one) => clock && timeOfDay(Number(one.toFixed(DECIMALS)), clock));
-    if (clock) lines.push(say("It starts at {start} and ends at {end}.", { start, end }));
+    const lines = [...dance.sentences, ...(dance.lines ?? [])];
     this.#fill(outcome, mark, say(VERDICTS[dance.verdict]), lines, rows, { known: dance.known, title: say(isExample(dance) ? "Verdict on this example" : "Verdict") });
   }
 

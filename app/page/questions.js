@@ -139,11 +139,11 @@ export class Questions {
     if (!this.#isNew("contact", body)) return this.#chosen();
     const report = await this.#answer("contact", "check", { body: { ...body, ...VERDICT } });
     if (!report) return;
-    const { encounter, start: begin, stop, failures, verdict } = report;
+    const { encounter, start: begin, stop, failures, verdict, sentences } = report;
     const answer = { ...encounter, end: encounter.time === null ? { reason: "path", time: stop } : null };
     // The chosen one may be another by now; other dances are asked about anew, and this answer is about its own.
     const own = JSON.stringify(this.#kept.file) === JSON.stringify(kept.file) ? this.#kept : kept;
-    this.#take({ ...own, kind: "dances", answer, report, failures, verdict, begin, end: encounter.time ?? stop - BEFORE_END, clock: clockAtZero(kept.extras, begin), track: null });
+    this.#take({ ...own, kind: "dances", answer, report, failures, verdict, sentences, begin, end: encounter.time ?? stop - BEFORE_END, clock: clockAtZero(kept.extras, begin), track: null });
     this.tell("dance");
   }
 
@@ -251,10 +251,10 @@ export class Questions {
     const isRoute = request.kind === "route";
     const report = await this.#answer("contact", "check", { body: { ...this.checkBody(request), ...(isRoute ? VERDICT : QUICK) } });
     if (!report) return;
-    const { failures, verdict, start: begin, stop, first_contact: first } = report;
+    const { failures, verdict, sentences, start: begin, stop, first_contact: first } = report;
     const answer = { ...first, end: isRoute && first.time === null ? { reason: "path", time: stop } : null };
     const last = isRoute ? stop - BEFORE_END : stop;
-    this.#accept({ ...request, answer, begin, end: answer.time ?? last, ...(isRoute ? { failures, verdict } : { report }) });
+    this.#accept({ ...request, answer, begin, end: answer.time ?? last, ...(isRoute ? { failures, verdict, sentences } : { report }) });
   }
 
   #accept(dance) {

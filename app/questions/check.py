@@ -22,7 +22,15 @@ from app.wire.geojson import SQUARE
 from app.wire.labels import DISPLAY_DECIMALS, Heading, Part, Table, judged_words, separation, value_text, value_word
 from app.wire.performances import SeveralFields
 from app.wire.question import UNKNOWN_COST, Command, Output, Question, Terms, Writer
-from app.wire.readings import Limits, dragons_failure_words, failure_words, speed_words
+from app.wire.readings import (
+    Limits,
+    day_words,
+    dragons_failure_words,
+    failure_words,
+    met_words,
+    speed_words,
+    way_words,
+)
 from app.wire.refusals import refusing
 from core import Dance, FailureKind, Judgement, Outcome, Performance, Venue
 from core.errors import format_bound, format_number
@@ -132,6 +140,7 @@ class Report(Answer, of=core.Report):
     venue: VenueClearance | None
     highest_speed: HighestSpeed | None
     sharpest_bend: core.SharpestBend | None
+    sentences: list[str] = SENTENCES
     begins: str | None = Field(description="Time of day at start, if start_clock or begin_clock is given")
     ends: str | None = Field(description="Time of day at stop, if start_clock or begin_clock is given")
     origin: Origin | None = Field(
@@ -153,7 +162,9 @@ class Report(Answer, of=core.Report):
             sentences=[speed_words(result.highest_speed)],
             words=evidence.speed_words(result.highest_speed) if terms.words else None,
         )
+        words = [*way_words(result.first_contact.dance, result.start, result.stop, begins), *day_words(begins, ends)]
         own = {"failures": failures, "first_contact": contact, "venue": venue, "origin": place.origin}
+        own |= {"sentences": words}
         return cls.from_result(result, begins=begins, ends=ends, highest_speed=speed, **own)
 
 
@@ -215,6 +226,7 @@ class PerformanceReport(Answer, of=core.PerformanceReport):
     encounter: Encounter
     least_clearance: DragonsClearance | None
     reports: list[Report | None]
+    sentences: list[str] = SENTENCES
     begins: str | None = Field(description="Time of day at start, if start_clock or begin_clock is given")
     ends: str | None = Field(description="Time of day at stop, if start_clock or begin_clock is given")
     origin: Origin | None = Field(
@@ -238,6 +250,7 @@ class PerformanceReport(Answer, of=core.PerformanceReport):
             encounter=Encounter.of(result.encounter, request, terms),
             least_clearance=None if least is None else DragonsClearance.from_result(least),
             reports=own,
+            sentences=[*([] if result.encounter.benches else met_words(result.encounter)), *day_words(begins, ends)],
             begins=begins,
             ends=ends,
             origin=place.origin,

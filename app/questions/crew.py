@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import AfterValidator, Field
 
 import core
-from app.cards.crew import CrewWords, crew_csv, lack_words
+from app.cards.crew import CrewWords, crew_csv
 from app.cards.words import CardWords, Chalk
 from app.files.tables import CSV_TYPE
 from app.maps.marks import mark_name
@@ -18,6 +18,7 @@ from app.plan.timing import TimeFormat
 from app.questions.check import FILE_OF_CHECK
 from app.questions.maps import Marked
 from app.questions.plan import PDF_TYPE, SHEETS
+from app.wire.answers import SENTENCES
 from app.wire.clocks import DAY, checked_clock
 from app.wire.dances import clock_of, starting
 from app.wire.fields import AS_WHOLE, Answer, Coordinate, Instant, OneLine, PaperSize, Wire, measure
@@ -180,6 +181,7 @@ class Crew(Answer):
     places: list[PlaceOfChange] = Field(description="Where the path passes the points, in order of the points")
     at: Roll | None = Field(description="Who is where at the time asked about; null: none was asked about")
     carriers: list[Carrier] = Field(description="All people")
+    sentences: list[str] = SENTENCES
 
     @classmethod
     def of(cls, crew: CrewWords, places: list[PlaceOfChange], roll: Roll | None) -> Self:
@@ -191,7 +193,7 @@ class Crew(Answer):
             for person, carried in enumerate(result.carried)
         ]
         more = {"longest": crew.longest, "places": places, "at": roll, "carriers": carriers}
-        return cls.from_result(result, changes=len(crew.changes), **more)
+        return cls.from_result(result, changes=len(crew.changes), sentences=crew.sentences, **more)
 
 
 def _name(bench: int, crew: CrewWords) -> str:
@@ -322,22 +324,8 @@ def _paper(request: CrewRequest, dance: Dance, crew: CrewWords, roll: Roll | Non
 
     result, clock = crew.crew, crew.words.clock.words
     title = request.title or say("Bench dragon")
-    minutes, seconds = divmod(round(crew.longest), 60)
-    facts = [
-        say(
-            "{result.people} people, {result.spares} of them spares, {change_count} changes",
-            result=result,
-            change_count=len(crew.changes),
-        ),
-        say("from {start} to {stop}", start=clock(result.start), stop=clock(result.stop)),
-        say(
-            "nobody carries longer than {minutes}:{seconds:02d} without a break",
-            minutes=minutes,
-            seconds=seconds,
-        ),
-    ]
-    if not result.is_kept:
-        facts += crew.lack
+    summary, *lacks = crew.sentences
+    facts = [summary, say("from {start} to {stop}", start=clock(result.start), stop=clock(result.stop)), *lacks]
     face = face_for([title])
     table = None if roll is None else _roll_table(roll, crew)
     return _drawn(dance, CrewSheets(crew, title, facts, face, terms.budget, request.paper, table), terms)
@@ -372,10 +360,8 @@ def _cost(request: CrewRequest, form: str = JSON) -> float:
 
 def _parts(answer: Crew, request: CrewRequest) -> Iterator[Part]:
     """What lacks, then each person, and who is where."""
-    if answer.spares < answer.enough:
-        lacks = lack_words(answer.enough, len(answer.unrelieved))
-        yield say("{words}.", words=say("; ").join(lacks).capitalize())
-    title = say("{answer.people} people, {answer.spares} of them spares; {answer.changes} changes", answer=answer)
+    title, *lacks = answer.sentences
+    yield from lacks
     heads = say("person"), say("benches"), say("time [s]"), say("way [m]"), say("longest [s]")
     table = Table(title, *heads)
     for one in answer.carriers:

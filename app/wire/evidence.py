@@ -9,15 +9,13 @@ from pydantic import Field
 
 import core
 from app.wire.fields import Answer, Strays
-from app.wire.readings import bench_words
+from app.wire.readings import bench_words, has_drawn_path
 from core.contact.answer import Outcome
 from core.dance import EndReason
 from core.design.pitch_search import JustifiedBy
 from core.errors import format_bound, format_number
 from core.failures import approach_words
 from core.language import Listed, Phrases, joined, phrase, say
-from core.paths.clothoid_turn import ClothoidTurn
-from core.paths.turn import Turn
 from core.shapes.engines import Engine
 
 # Sentences about contacts. With a margin benches in contact may be apart, and with a stray they only may touch.
@@ -200,7 +198,7 @@ def contact_words(
 ) -> ContactWords:
     """The words of a first contact. sentences: of the answer"""
     near, end, dance = Contacts(request, contact.dance.dragon), contact.end, contact.dance
-    is_drawn = dance.path.spiral is None and not isinstance(dance.path, Turn | ClothoidTurn)
+    is_drawn = has_drawn_path(dance)
     folds = end is not None and end.reason is EndReason.FOLD
     state = "fold" if folds else "drawn" if is_drawn and contact.outcome is Outcome.CLEAR else contact.outcome.value
     time = contact.time if end is None else end.time

@@ -13,6 +13,8 @@ from core.design.pitch_search import JustifiedBy, LimitedBy
 from core.errors import format_bound, format_number
 from core.failures import FailureKind, approach_words, area_approach_words, contact_failures, encounter_failures
 from core.language import Language, Listed, Phrases, counted, phrase, say, spoken
+from core.paths.clothoid_turn import ClothoidTurn
+from core.paths.turn import Turn
 from core.tolerance.tolerance import Limit
 
 # What a smaller pitch leads to.
@@ -39,6 +41,10 @@ STRAY_LIMITS: Phrases = {
     Limit.VENUE: "Limited by {a} and {area}, which are nearest to a contact at {time:.2f} s.",
     Limit.CHORD: "There is no limit up to half of the shortest chord.",
 }
+# A part of a path before the head that is worth a word [m].
+STANDS = 0.05
+# A time that is not shown as 0 [s].
+INSTANT = 0.005
 
 
 def bench_words(bench: int, dragon: core.Dragon) -> str:
@@ -153,6 +159,38 @@ def failure_words(failure: core.Failure, dragon: core.Dragon, limits: Limits) ->
         case _:
             return failure.message
     return _sentence(template, **dict(zip("ab", names, strict=False)), **values)
+
+
+def has_drawn_path(dance: core.Dance) -> bool:
+    """True for a path that is neither a spiral nor a turn, so that somebody chose where it begins and ends."""
+    return dance.path.spiral is None and not isinstance(dance.path, Turn | ClothoidTurn)
+
+
+def way_words(dance: core.Dance, start: float, stop: float, begins: str | None) -> list[str]:
+    """How far the head walks on a drawn path from start to stop [s], and where the dragon stands before.
+
+    begins: time of day at start; None if it is not known
+    """
+    if not has_drawn_path(dance):
+        return []
+    path, (first, last) = dance.path, map(dance.clock.travel, (start, stop))
+    time, length = f"{stop - start:.1f}", f"{path.end - path.begin:.1f}"
+    if float(time) == 0.0:
+        return [say("The path is {length} m long.", length=length)]
+    way = phrase("The head walks {way} m in {time} s.")
+    if begins is None and abs(start) >= INSTANT:
+        way = phrase("The head walks {way} m in {time} s, from {from} s to {to} s of its clock.")
+    values = {"way": f"{last - first:.1f}", "time": time, "from": f"{start:.2f}", "to": f"{stop:.2f}"}
+    words, stands = [say(way, **values)], first - path.begin
+    if stands >= STANDS:
+        before = phrase("At the start the dragon stands on the first {stands} m of its path of {length} m.")
+        words.append(say(before, stands=f"{stands:.1f}", length=length))
+    return words
+
+
+def day_words(begins: str | None, ends: str | None) -> list[str]:
+    """At which times of day a dance starts and ends; none without a clock."""
+    return [say("It starts at {start} and ends at {end}.", start=begins, end=ends)] if begins else []
 
 
 def pitch_words(

@@ -82,7 +82,7 @@ def test_the_timeline_is_written_in_chinese(ask):
 def test_a_terminal_shows_who_is_where():
     text = json.dumps(VILLAGE | {"start_clock": "19:44:30", "at": 30})
     table = run("crew", "-", "--spares", "6", "--point", "6,-8", text=text).stdout
-    assert re.match(r"Too few spares for all changes: \d+ are enough.*\n\s*60 people, 6 of them spares", table)
+    assert re.match(r"Too few spares: .* \d+ spares are enough\..*\n\s*60 people, 6 of them spare;", table)
     assert "Who is where at 19:45:00" in table
 
 
