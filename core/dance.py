@@ -113,7 +113,7 @@ class Clock:
         self.head_speed, self.passages = head_speed, passages
         self.times, self.travels = nodes(passages) if passages else ([0.0], [0.0])
         self.speeds = [head_speed, *[passage.speed for passage in passages], head_speed]
-        self.slowest = min([speed for speed in self.speeds if speed > 0.0]) if passages else head_speed
+        self.slowest = min(speed for speed in self.speeds if speed > 0.0) if passages else head_speed
 
     def travel(self, time: float) -> float:
         """Travel of the head at a time [m]."""

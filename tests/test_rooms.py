@@ -5,7 +5,6 @@ in tests/support, what runs for minutes or hours in tests/campaigns.
 """
 
 import ast
-import re
 
 import pytest
 
@@ -33,29 +32,3 @@ def test_every_module_of_core_has_its_file_of_tests():
     modules = [path.relative_to(ROOT) for path in paths]
     assert len(modules) > 50
     assert [one for one in modules if not has_tests(TESTS / one.with_name(f"test_{one.name}"))] == []
-
-
-# -- names that tests use ------------------------------------------------------------------------------------
-
-
-# Public in spite of their underscore.
-PUBLIC = {"_asdict", "_exit", "_fields", "_replace"}
-
-
-def private_names(nodes):
-    """Private names that code imports, asks another object for, or replaces."""
-    used = []
-    for node in nodes:
-        if isinstance(node, ast.ImportFrom):
-            used += [alias.name for alias in node.names]
-        elif isinstance(node, ast.Attribute) and ast.unparse(node.value) not in ("self", "cls"):
-            used.append(node.attr)
-        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith("attr"):
-            used += [str(each.value).rpartition(".")[2] for each in node.args if isinstance(each, ast.Constant)]
-    return [name for name in used if re.fullmatch(r"_.*[^_]", name) and name not in PUBLIC]
-
-
-def test_no_test_uses_a_private_name():
-    files = sorted(TESTS.rglob("*.py"))
-    assert len(files) > 200
-    assert {file: used for file in files if (used := private_names(nodes(file)))} == {}
