@@ -66,7 +66,8 @@ def test_every_cell_runs_and_shows_something_short_or_a_picture(tour):
 def test_its_sentences_are_so(tour):
     low, high = tour.contact.time_bracket
     assert 0.0 < high - low < 1e-9  # "a fraction of a nanosecond apart"
-    assert (tour.contact.corner.name, tour.contact.corner.bench) == ("front-outer", 0)
+    assert tour.contact.corner.name == "front-outer"
+    assert tour.contact.corner.bench == 0
     assert 0.0 < tour.profile.grazes[-1].clearance < 1e-3  # "less than a millimetre"
     assert tour.tightest.proven_up_to is None  # "every larger one works too"
     assert tour.walk.speed[-1, -1] < tour.walk.speed[-1, 0]  # "a little slower than the head"

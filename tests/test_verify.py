@@ -92,7 +92,8 @@ def test_certificates_of_all_kinds_are_verified(tmp_path, name):
     make, words = CERTIFICATES[name]
     (tmp_path / "certificate.json").write_text(json.dumps(make()))
     done = run(tmp_path / "certificate.json")
-    assert (done.returncode, done.stderr) == (0, "")
+    assert done.returncode == 0
+    assert done.stderr == ""
     assert words in done.stdout
 
 
@@ -213,7 +214,8 @@ def test_what_is_no_certificate_is_refused_in_one_line(data, reason, tmp_path, m
     with pytest.raises(SystemExit) as ended:
         runpy.run_path(str(VERIFY), run_name="__main__")
     output, errors = capsys.readouterr()
-    assert (ended.value.code, output) == (1, "")
+    assert ended.value.code == 1
+    assert output == ""
     assert re.fullmatch(r"Refused: .*\n", errors)
     assert reason in errors
 
@@ -250,7 +252,8 @@ def test_both_checkers_have_one_verdict_on_changed_certificates():
 @pytest.mark.parametrize("arguments", [["--other"], *thorough([], ["a", "b"], ["nowhere"], ["/"])], ids=str)
 def test_wrong_usage_gets_exit_code_2(arguments):
     done = run(*arguments)
-    assert (done.returncode, done.stdout) == (2, "")
+    assert done.returncode == 2
+    assert done.stdout == ""
     assert "usage: verify.py" in done.stderr
     assert "Traceback" not in done.stderr
 

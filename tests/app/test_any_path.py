@@ -33,7 +33,8 @@ def test_a_turn_of_any_ratio_is_that_of_core():
     request = ShortestTurnRequest(pitch=1.7, any_ratio=True)
     answer = shortest_turn(request, Terms(budget=core.Budget(1e7)))
     known = core.shortest_turn(core.Dragon(), 1.7, ratio=None, budget=core.Budget(1e7))
-    assert (answer.ratio, answer.length_bracket) == (known.turn.ratio, known.length_bracket)
+    assert answer.ratio == known.turn.ratio
+    assert answer.length_bracket == known.length_bracket
 
 
 # -- routes and waypoints ------------------------------------------------------------------------------------

@@ -94,7 +94,8 @@ def test_head_has_the_headers_of_get_and_no_body(client, path, taken):
     head = client.head(path, headers=accept)
     with client.stream("GET", path, headers=accept) as get:
         sent = len(b"".join(get.iter_raw()))
-    assert (head.status_code, head.content) == (200, b"")
+    assert head.status_code == 200
+    assert head.content == b""
     assert head.headers["content-length"] == get.headers["content-length"] == str(sent)
 
 

@@ -68,7 +68,8 @@ def test_answers_may_be_kept_as_long_as_the_setting_says(small):
 def test_an_empty_variable_is_none(monkeypatch):
     for name in ("BENCH_DRAGON_DATA", "BENCH_DRAGON_JOBS_MAX"):
         monkeypatch.setenv(name, "")
-    assert (Settings().data, Settings().jobs_max) == (None, 1000)
+    assert Settings().data is None
+    assert Settings().jobs_max == 1000
 
 
 def test_a_misspelt_variable_is_named_with_what_was_meant(monkeypatch):

@@ -102,7 +102,8 @@ def bare_install(tmp_path_factory):
 @pytest.mark.parametrize("line", ANSWERED.strip().splitlines())
 def test_every_question_is_answered_without_an_extra(bare_install, line):
     done = bare_install(*line.split(), "--json")
-    assert (done.returncode, done.stderr) == (0, "")
+    assert done.returncode == 0
+    assert done.stderr == ""
     assert json.loads(done.stdout)
 
 

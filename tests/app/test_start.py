@@ -18,7 +18,8 @@ def test_a_module_is_called_with_its_own_arguments(tmp_path):
     (tmp_path / "told.py").write_text(code)
     command = [sys.executable, "-m", "app.start", "told", "a", "b"]
     done = subprocess.run(command, env={"PYTHONPATH": str(tmp_path)}, capture_output=True, text=True)
-    assert (done.stdout, done.stderr) == ("False True ['told', 'a', 'b']\n", "")
+    assert done.stdout == "False True ['told', 'a', 'b']\n"
+    assert done.stderr == ""
 
 
 @pytest.fixture
@@ -62,4 +63,5 @@ def test_a_library_of_the_user_is_still_imported(other_program):
     code = "import bench_dragon, os; bench_dragon.leave_out_namesakes(); print(os.environ['LIBRARY'])"
     command = [sys.executable, "-P", "-c", code + "; import app, core"]
     done = subprocess.run(command, env=ENVIRONMENT | {"PYTHONPATH": other_program}, capture_output=True, text=True)
-    assert (done.stdout, done.stderr) == ("was imported\n", "")
+    assert done.stdout == "was imported\n"
+    assert done.stderr == ""

@@ -85,7 +85,8 @@ def test_a_file_may_name_a_table_of_benches_and_a_time_of_day(tmp_path):
     benches.write_text(TABLE.replace("Wu;2,2", "Wu;220"))
     text = "line 6: length must be from 0.001 to 50 m, got 220 m: lengths are in metres, and 220 cm is 2.2 m"
     refused = refusal("check", str(dance)).replace("\n", " ")
-    assert (f"{benches}: {text}" in refused, "dragon.csv" in refused) == (True, False)
+    assert f"{benches}: {text}" in refused
+    assert "dragon.csv" not in refused
 
 
 BARE_TABLE = "Zhou,3.41,0.3,0.275\nLi,2.2,0.3,0.275\n"
@@ -139,9 +140,11 @@ def test_the_dance_starts_at_its_time_of_day_and_the_verdict_says_when_it_ends(a
     body = ON_LANE | {"speed_limit": 0.5} | more
     report, without, at_zero = (ask("check", body | clock) for clock in ({"begin_clock": "19:30"}, {}, CLOCK))
     ends = f"19:30:{int(report['stop'] - report['start']):02d}"
-    assert (report["begins"], report["ends"]) == ("19:30:00", ends)
+    assert report["begins"] == "19:30:00"
+    assert report["ends"] == ends
     assert [failure["clock"] for failure in report["failures"]] == ["19:30:00"]
-    assert (without["begins"], without["ends"]) == (None, None)
+    assert without["begins"] is None
+    assert without["ends"] is None
     assert at_zero["begins"] == time_of_day(report["start"], "19:30")
 
 

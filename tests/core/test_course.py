@@ -28,7 +28,8 @@ def test_a_tight_bend_is_reported_with_its_place_and_what_a_bench_needs():
     path = Legs(BACK, [0, 1], radius=1.0)
     [bend] = course(path, LONG).bends
     assert (bend.start, bend.end, bend.radius) == pytest.approx((*path.joints, 1.0))
-    assert (bend.bench, bend.reason) == (0, "backwards")
+    assert bend.bench == 0
+    assert bend.reason == "backwards"
     for more in (1e-9, -1e-9):
         assert bends_widely(LONG, Legs(BACK, [0, 1], radius=bend.least_radius * (1.0 + more))) is (more > 0.0)
     x, y = path.pieces[1].centre

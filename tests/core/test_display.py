@@ -164,7 +164,8 @@ def test_a_line_and_a_table_are_in_the_language_that_is_spoken(values):
 )
 def test_a_short_input_prints_the_call_that_makes_it(value):
     again = eval(repr(value), vars(core))
-    assert (type(again), again) == (type(value), value)
+    assert type(again) is type(value)
+    assert again == value
 
 
 def spent():

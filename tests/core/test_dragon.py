@@ -59,7 +59,8 @@ def test_a_bench_that_cannot_be_is_refused_by_name(field, lengths, widths, overh
 def test_a_uniform_dragon_equals_the_same_one_bench_by_bench(benches, head, body, width, overhang):
     uniform = Dragon(benches, head, body, width, overhang)
     listed = Dragon.of([head] + [body] * (benches - 1), [width] * benches, [overhang] * benches)
-    assert (uniform, hash(uniform)) == (listed, hash(listed))
+    assert uniform == listed
+    assert hash(uniform) == hash(listed)
     assert uniform.uniform_from == listed.uniform_from == (head != body)
 
 
@@ -84,7 +85,8 @@ def test_leading_benches_are_those_of_the_dragon(benches):
     columns = [3.0, 2.0, 4.0, 2.0, 2.0], [0.3, 0.2, 0.3, 0.3, 0.3], [0.2, 0.1, 0.2, 0.2, 0.2]
     front = Dragon.of(*columns).leading(benches)
     expected = Dragon.of(*(column[:benches] for column in columns))
-    assert (front, front.uniform_from) == (expected, expected.uniform_from)
+    assert front == expected
+    assert front.uniform_from == expected.uniform_from
 
 
 def test_people_and_play_add_up():

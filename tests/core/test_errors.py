@@ -52,12 +52,15 @@ def test_an_error_is_a_template_what_was_given_and_a_reason(kind):
     error = kind("times.3", rule, **quantities("s", got=12.5, limit=9.0), unused="a word that is not there")
     words = "must be at most 9 s, got {} s: the run ends there"
     assert error.message == str(error) == f"times[3] {words.format(12.5)}"
-    assert (error.template, error.reason) == ("{field} must be at most {limit}", "the run ends there")
-    assert (error.field, error.got) == ("times.3", Quantity(12.5, "s"))
+    assert error.template == "{field} must be at most {limit}"
+    assert error.reason == "the run ends there"
+    assert error.field == "times.3"
+    assert error.got == Quantity(12.5, "s")
     assert error.values == {"field": Parameter("times.3"), "limit": Quantity(9.0, "s")}
     other = error.with_field("stop", Quantity(25.0, "s"))
     assert (type(other), other.field, other.got) == (kind, "stop", Quantity(25.0, "s"))
-    assert (other.message, error.message) == (f"stop {words.format(25)}", f"times[3] {words.format(12.5)}")
+    assert other.message == f"stop {words.format(25)}"
+    assert error.message == f"times[3] {words.format(12.5)}"
 
 
 @EVERY_KIND
@@ -78,7 +81,8 @@ def test_the_other_parameters_of_a_message_get_their_new_names_too():
     error = InvalidValue("times.stop", "must not be before {start} by {count}", start=Parameter("times.start"), count=2)
     assert error.message == "times.stop must not be before times.start by 2"
     renamed = error.renamed(lambda name: f"--{name.removeprefix('times.')}", count=3)
-    assert (renamed.field, renamed.message) == ("--stop", "--stop must not be before --start by 3")
+    assert renamed.field == "--stop"
+    assert renamed.message == "--stop must not be before --start by 3"
 
 
 @pytest.mark.parametrize("stopped", [True, False])
@@ -110,13 +114,15 @@ def number(name="time", value=3.5, unit="s", low=1.0, **options):
 def test_what_is_no_such_value_is_refused_with_its_unit_and_limit(message, call):
     with pytest.raises(InvalidValue) as caught:
         call()
-    assert (caught.value.field, caught.value.message) == (message.split()[0], message)
+    assert caught.value.field == message.split()[0]
+    assert caught.value.message == message
 
 
 @pytest.mark.parametrize("value", [SIZE_MIN, 1, np.float64(1.5), np.int64(2), Fraction(1, 2), SIZE_MAX], ids=repr)
 def test_a_size_in_range_is_a_float(value):
     size = checked_size("width", value)
-    assert (type(size), size) == (float, value)
+    assert type(size) is float
+    assert size == value
 
 
 def test_what_a_caller_gave_may_hold_braces():

@@ -90,8 +90,10 @@ def test_all_failures_are_named_in_order_of_time_also_by_a_quick_check(name):
     assert times == sorted(times)
     undecided = any(failure.kind is FailureKind.UNDECIDED for failure in report.failures)
     judgement = Judgement.UNDECIDED if undecided else Judgement.FAILS if sentences else Judgement.PASSES
-    assert (report.verdict, report.passed) == (judgement, not sentences)
-    assert (quick.failures, quick.verdict) == (report.failures, report.verdict)
+    assert report.verdict == judgement
+    assert report.passed == (not sentences)
+    assert quick.failures == report.failures
+    assert quick.verdict == report.verdict
     assert (quick.start, quick.stop, quick.sharpest_bend) == (report.start, report.stop, None)
     assert not quick.venue or {area.nearest for area in quick.venue.areas} == {None}
 

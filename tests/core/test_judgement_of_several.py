@@ -47,14 +47,17 @@ def test_a_single_dragon_has_the_report_of_its_dance_to_the_last_bit(question, v
     report = question(Performance([Part(dance)], venue), **options)
     assert report.reports == (alone,)
     assert [(one.failure, one.message) for one in report.failures] == [(one, one.message) for one in alone.failures]
-    assert (report.verdict, report.passed) == (alone.verdict, alone.passed)
-    assert (report.start, report.stop) == (dance.begin, dance.end.time)
+    assert report.verdict == alone.verdict
+    assert report.passed == alone.passed
+    assert report.start == dance.begin
+    assert report.stop == dance.end.time
 
 
 def test_failures_of_all_dragons_stand_in_order_of_time_and_name_their_dragon():
     report = check(IN_SQUARE)
     met = first_encounter(IN_SQUARE)
-    assert (report.encounter, report.verdict) == (met, Judgement.FAILS)
+    assert report.encounter == met
+    assert report.verdict == Judgement.FAILS
     assert report.least_clearance == least_clearance(IN_SQUARE)
     failures = report.failures
     assert [one.time for one in failures] == sorted(one.time for one in failures)

@@ -25,7 +25,8 @@ LONG = "n" * (NAME_MAX + 1)
 def test_a_name_is_one_line_of_plain_text(name, message, what, before):
     with pytest.raises(InvalidValue) as caught:
         checked_name("venue", name, what)
-    assert (caught.value.field, caught.value.message) == ("venue", f"{before} {message}")
+    assert caught.value.field == "venue"
+    assert caught.value.message == f"{before} {message}"
 
 
 @pytest.mark.parametrize("name", ["", "Zhou", "\u5468\u5bb6", LONG[1:]])

@@ -43,7 +43,8 @@ def test_without_axes_a_new_figure_is_made_and_given_ones_are_drawn_on(axes):
     assert plt.get_fignums() == []
     drawn = trajectory(DANCE, 0.0).plot()
     assert plt.fignum_exists(drawn.figure.number)
-    assert (drawn.get_xlabel(), drawn.get_ylabel()) == ("x [m]", "y [m]")
+    assert drawn.get_xlabel() == "x [m]"
+    assert drawn.get_ylabel() == "y [m]"
 
 
 @pytest.mark.parametrize("instant", [0, 1, -1])

@@ -27,7 +27,8 @@ def test_a_search_that_is_given_up_keeps_the_bracket_so_far_and_another_middle_i
         tried.append(x)
         return None if len(tried) == 3 else x >= 1.0
 
-    assert (bisect(holds, 0.0, 8.0), tried) == ((0.0, 2.0), [4.0, 2.0, 1.0])
+    assert bisect(holds, 0.0, 8.0) == (0.0, 2.0)
+    assert tried == [4.0, 2.0, 1.0]
     tried.clear()
     bisect(lambda x: bool(tried.append(x)), 1.0, 16.0, width=5.0, middle=lambda a, b: math.sqrt(a * b))
     assert tried == [4.0, 8.0, math.sqrt(8.0 * 16.0)]

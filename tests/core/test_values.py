@@ -18,6 +18,7 @@ def test_arrays_hold_doubles_and_points_two_floats():
         for name, hint in hints(type(one)).items():
             value = getattr(one, name)
             if hint == Floats:
-                assert (type(value), value.dtype) == (np.ndarray, np.float64)
+                assert type(value) is np.ndarray
+                assert value.dtype == np.float64
             elif value is not None and hint in (Point, Point | None):
                 assert [*map(type, value)] == [float, float]

@@ -15,7 +15,8 @@ def assert_problem(answer, status, expected=None):
     expected: place of its first error, a JSON pointer or a name, then words and numbers that its sentence holds
     """
     assert answer.status_code == status, answer.text
-    assert (answer.headers["content-type"], answer.headers["cache-control"]) == (PROBLEM_TYPE, "no-store")
+    assert answer.headers["content-type"] == PROBLEM_TYPE
+    assert answer.headers["cache-control"] == "no-store"
     problem = answer.json()
     assert problem["type"].startswith("urn:problem-type:bench-dragon:")
     assert (problem["status"], bool(problem["title"]), "Traceback" in answer.text) == (status, True, False)

@@ -81,14 +81,16 @@ def run(*arguments, text=None, room=None, house=ROOT, **environment):
 def said(*arguments, aside="", **how):
     """What the command prints when it succeeds. aside: all that stands on standard error; None for anything"""
     done = run(*arguments, **how)
-    assert (done.returncode, done.stderr) == (0, done.stderr if aside is None else aside)
+    assert done.returncode == 0
+    assert done.stderr == (done.stderr if aside is None else aside)
     return done.stdout
 
 
 def refusal(*arguments, **how):
     """What stands on standard error when the command refuses, and prints nothing."""
     done = run(*arguments, **how)
-    assert (done.returncode, done.stdout) == (2, "")
+    assert done.returncode == 2
+    assert done.stdout == ""
     return done.stderr
 
 

@@ -61,7 +61,8 @@ def assert_same(answer, value, names):
 
 def assert_met(answer, met):
     assert_same(answer, met, "time dragon bench side gap oncoming x y")
-    assert (answer["dragon_name"], answer["name"]) == (("blue", "red")[met.dragon], name_of(met.dragon, met.bench))
+    assert answer["dragon_name"] == ("blue", "red")[met.dragon]
+    assert answer["name"] == name_of(met.dragon, met.bench)
 
 
 def test_every_card_has_the_cues_of_its_bench(pairs):
@@ -70,7 +71,8 @@ def test_every_card_has_the_cues_of_its_bench(pairs):
         assert (card["dragon"], card["bench"], card["name"]) == (dragon, bench.bench, name_of(dragon, bench.bench))
         near = [other and (other["bench"], other["name"]) for other in (card["ahead"], card["behind"])]
         assert near == [k if k is None else (k, name_of(dragon, k)) for k in (bench.ahead, bench.behind)]
-        assert (card["direction"], card["least_left_out"]) == (bench.direction, known.least_left_out)
+        assert card["direction"] == bench.direction
+        assert card["least_left_out"] == known.least_left_out
         assert card["left_out"] == len(known.left_out)
         assert_same(card["fastest"], bench.fastest, "time speed handle x y")
         assert card["fastest"]["speed_ratio"] == bench.fastest.speed / (1.1 if dragon else 1.0)

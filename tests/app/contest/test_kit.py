@@ -107,11 +107,14 @@ def test_the_readme_shows_the_last_line_that_the_command_prints(drawn):
 @pytest.mark.parametrize("name", WORKBOOKS)
 def test_a_workbook_has_the_labels_of_the_contest_to_the_blank_and_right_numbers_of_six_decimals(chinese, name):
     for sheet, known in zip(sheets(chinese, name), reference("contest_workbooks")["workbooks"][name], strict=True):
-        assert (sheet.title, sheet.dimensions) == (known["title"], known["dimensions"])
+        assert sheet.title == known["title"]
+        assert sheet.dimensions == known["dimensions"]
         assert [cell.value for cell in sheet["A"]] == known["first_column"]
         top = [cell.value for cell in sheet[1]]
-        assert (top[:4], top[-1]) == (known["first_row_start"], known["first_row_end"])
-        assert (sheet.freeze_panes, sheet["B2"].number_format) == ("B2", "0.000000")
+        assert top[:4] == known["first_row_start"]
+        assert top[-1] == known["first_row_end"]
+        assert sheet.freeze_panes == "B2"
+        assert sheet["B2"].number_format == "0.000000"
         values = 1e6 * np.array([row[1:] for row in sheet.iter_rows(min_row=2, values_only=True)])
         assert np.abs(values - values.round()).max() < 1e-6
     result = graded(f"{name}.xlsx", (chinese / f"{name}.xlsx").read_bytes(), Budget())
@@ -134,7 +137,8 @@ def test_a_table_says_the_same_in_every_format_and_the_grader_finds_every_number
     # Excel takes a CSV for UTF-8 if it begins with this mark.
     assert files["csv"].startswith("\ufeff")
     result = graded(f"{name}.csv", files["csv"].encode(), Budget())
-    assert (sum(sheet.right for sheet in result.sheets), result.diagnosis) == (TABLES[name], [])
+    assert sum(sheet.right for sheet in result.sheets) == TABLES[name]
+    assert result.diagnosis == []
     rows = list(csv.reader(files["csv"][1:].splitlines()))
     marked = [[cell.strip() for cell in line.strip("|").split("|")] for line in files["md"].splitlines()]
     latex = re.findall(r"^    (.*) \\\\$", files["tex"], re.MULTILINE)
@@ -263,7 +267,8 @@ def test_a_kit_that_waits_for_other_drawings_ends_when_it_is_stopped():
     with ThreadPoolExecutor(1) as others:
         others.submit(drawing.in_turn, long)
         refusal = stopped(budget, listen, films=False)
-    assert (refusal.field, refusal.values["count"]) == ("benches", 5)
+    assert refusal.field == "benches"
+    assert refusal.values["count"] == 5
 
 
 def test_a_second_run_leaves_nothing_of_the_first_and_keeps_what_is_not_ours(tmp_path):

@@ -85,7 +85,8 @@ def test_a_device_is_written_to_and_never_replaced(tmp_path):
     link = tmp_path / "dance.csv"
     link.symlink_to("/dev/full")
     done = run("trajectory", "--stop", "2", "--output", str(link))
-    assert (done.returncode, done.stderr) == (2, f"Error: {link}: No space left on device\n")
+    assert done.returncode == 2
+    assert done.stderr == f"Error: {link}: No space left on device\n"
     assert Path("/dev/full").is_char_device()
 
 

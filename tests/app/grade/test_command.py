@@ -97,7 +97,8 @@ def test_the_words_are_in_the_language_chosen(class_of_three, tmp_path, monkeypa
     assert "other_instant" not in done.stdout
     heads, number, *rows = rows_of(summary)
     assert heads == ("文件", "工作簿", "判定", "单元格", "正确", "缺少", "诊断", "小数位")
-    assert (number[0], number[2]) == ("最小螺距：0.4202 m", "错误")
+    assert number[0] == "最小螺距：0.4202 m"
+    assert number[2] == "错误"
     assert number[6].endswith("；可能是：只检验圆上的位形")
     assert rows == [
         (str(other), "result2", "错误", 672, 1, 0, "时刻有误；按时间步长搜索（碰撞后）", None),
@@ -134,7 +135,8 @@ def test_the_turn_that_the_command_writes_is_graded_right(tmp_path, ending):
     options = "--path", "turn", "--start", "-100", "--stop", "100", "--output", str(file)
     said("trajectory", *options, aside=f"{file}: 224 handles at 201 instants\n")
     [result] = json.loads(run("grade", str(file), "--json").stdout)["files"]
-    assert (result["workbook"], result["verdict"]) == ("result4", "right")
+    assert result["workbook"] == "result4"
+    assert result["verdict"] == "right"
 
 
 # A number as it is typed, its verdict, and the shortcut that gives it: certain, or with a ? only a guess with so many

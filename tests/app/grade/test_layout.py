@@ -71,7 +71,8 @@ def assert_right_contact(result):
 def assert_right(data):
     """A whole result1 of positions, as CSV, right in every cell."""
     sheet, _ = grade(data, "result1.csv").sheets
-    assert (sheet.verdict, sheet.right) == ("right", 301 * 448)
+    assert sheet.verdict == "right"
+    assert sheet.right == 301 * 448
 
 
 @pytest.mark.parametrize("change", LAYOUTS, ids=lambda change: change.__name__)
@@ -87,7 +88,8 @@ def test_a_whole_result1_may_stand_on_its_side():
 
 def test_a_result4_without_instants_begins_at_minus_100_s():
     sheet, _ = grade(as_csv(three()[2]["位置"][1:]), "result4.csv").sheets
-    assert (sheet.verdict, sheet.right) == ("right", 201 * 448)
+    assert sheet.verdict == "right"
+    assert sheet.right == 201 * 448
 
 
 @pytest.mark.parametrize("title, factor", [("位置", 100.0), ("速度", 100.0), ("速度", 1000.0)])
@@ -109,7 +111,8 @@ def test_a_handle_too_many_is_left_out_and_one_too_few_is_missing():
     sheets = few()
     del sheets["位置"][101:103]
     position, _ = grade(by_xlsxwriter(sheets)).sheets
-    assert (position.verdict, position.right) == ("incomplete", 4 * 446)
+    assert position.verdict == "incomplete"
+    assert position.right == 4 * 446
 
 
 @pytest.mark.parametrize("written", [by_xlsxwriter, lambda sheets: as_csv(*sheets.values())], ids=["workbook", "CSV"])
@@ -143,7 +146,8 @@ def test_tables_of_every_form_are_graded_beside_each_other(form):
 
 def assert_printed(result):
     """All numbers that the paper prints are right."""
-    assert (result.verdict, held(result)) == ("incomplete", [("position", 84), ("speed", 42)])
+    assert result.verdict == "incomplete"
+    assert held(result) == [("position", 84), ("speed", 42)]
 
 
 def printed(corner=""):
@@ -230,7 +234,8 @@ def test_a_table_that_is_not_of_the_contest_is_unreadable(heads, count):
     names = heads.split(",")
     rows = [[k if name in ("", "n") else 0.01 * k for name in names] for k in range(count)]
     result = grade(as_csv([names, *rows]), "result2.csv")
-    assert (result.workbook, result.verdict) == (None, "unreadable")
+    assert result.workbook is None
+    assert result.verdict == "unreadable"
 
 
 @pytest.mark.parametrize("labels", [True, False])
@@ -308,7 +313,8 @@ def test_a_sheet_of_speeds_is_no_sheet_of_positions(below):
     heads, *rows = few()["速度"]
     rows = [[row[0].removesuffix(" (m/s)"), *row[1:]] for row in rows]
     [sheet, *_] = grade(by_xlsxwriter({"速度表": [heads, *rows, *below]})).sheets
-    assert (sheet.holds, sheet.right) == ("speed", 4 * 224)
+    assert sheet.holds == "speed"
+    assert sheet.right == 4 * 224
 
 
 def in_angles(rows):
@@ -347,7 +353,8 @@ def test_empty_columns_and_rows_count_as_missing_instants_and_handles():
 def test_a_file_with_the_name_of_another_question_is_reported(name, count):
     times = students.TURN_TIMES[:4]
     result = grade(by_xlsxwriter(students.rows_of(students.turn(times), times)), name)
-    assert (result.workbook, right(result)) == ("result4", FEW)
+    assert result.workbook == "result4"
+    assert right(result) == FEW
     words = "The name of the file says result1, but its sheets are laid out as result4: it was graded as result4."
     assert result.notes == [words] * count
 
@@ -396,4 +403,5 @@ def test_a_table_of_x_and_one_of_y_are_joined(has_title):
         x, y = ([heads, *rows[k::2]] for k in range(2))
     for data in (as_csv([*x, [], *y]), as_csv(beside(x, y)), by_xlsxwriter({"x": x, "y": y})):
         [sheet, _] = grade(data).sheets
-        assert (sheet.holds, sheet.right) == ("position", FEW[0])
+        assert sheet.holds == "position"
+        assert sheet.right == FEW[0]

@@ -78,7 +78,8 @@ def test_a_few_instants_of_other_tools_are_right(writer):
     for name, sheets in {"result1": spiralled, "result2": three()[1], "result4": turned}.items():
         result = grade(writer(sheets) if writer else (SMALL / f"{name}.xlsx").read_bytes(), "upload")
         right = sum(sheet.right for sheet in result.sheets)
-        assert (result.workbook, right) == (name, 3 * 224 * (1 if name == "result2" else FEW))
+        assert result.workbook == name
+        assert right == 3 * 224 * (1 if name == "result2" else FEW)
 
 
 @cache
@@ -114,7 +115,8 @@ def in_sheets(old, new):
 def test_a_few_rounded_instants_are_incomplete_and_right_to_their_decimals(decimals):
     times = SPIRAL_TIMES[:4]
     sheet = grade(students.lines([part.round(decimals) for part in spiral(times)], times)).sheets[0]
-    assert (sheet.verdict, sheet.decimals) == ("incomplete", decimals)
+    assert sheet.verdict == "incomplete"
+    assert sheet.decimals == decimals
     assert f"The 1,792 cells that have a number are right to {decimals} decimal{'s' * (decimals > 1)}." in sheet.notes
 
 
@@ -279,7 +281,8 @@ def test_text_in_number_cells_is_reported_with_its_place():
 def test_text_in_many_cells_is_reported_once_with_its_count(word):
     sheet = with_cells({f"{column}{row}": word for row in range(404, 450) for column in "BCDE"})
     assert sheet.notes[0] == f"184 cells hold the text “{word}” instead of a number, the first is B404."
-    assert (len(sheet.notes), sheet.right) == (2, 4 * 402)
+    assert len(sheet.notes) == 2
+    assert sheet.right == 4 * 402
 
 
 def test_many_texts_are_counted_and_not_all_quoted():

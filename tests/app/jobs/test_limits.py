@@ -70,7 +70,8 @@ def test_a_client_has_only_so_many_unfinished_jobs(strict):
         theirs = other.post("/jobs", json=ENDLESS).headers["location"]
         refused = strict.client.post("/jobs", json=SHORT)
         full = other.post("/jobs", json=SHORT)
-    assert (refused.status_code, full.status_code) == (429, 503)
+    assert refused.status_code == 429
+    assert full.status_code == 503
     # It is estimated that the first one ends soon; then its result stays for a while.
     assert 0 < int(refused.headers["retry-after"]) <= 5
     assert 0 < int(full.headers["retry-after"]) <= FRESH + 5
@@ -82,7 +83,8 @@ def test_a_result_that_is_too_long_is_not_kept(strict):
     address = strict.post({"question": "trajectory", "request": {"times": [0]}})
     assert strict.finished(address)["status"] == "failed"
     answer = strict.result(address)
-    assert (answer.status_code, str(RESULT_BYTES_MAX) in answer.text) == (413, True)
+    assert answer.status_code == 413
+    assert str(RESULT_BYTES_MAX) in answer.text
     assert list((strict.folder / "results").iterdir()) == []
     strict.remove(address)
 
@@ -93,7 +95,8 @@ def test_only_so_many_clients_may_listen(strict):
         lines = first.iter_lines()  # It holds the connection.
         assert next(lines)
         refused = strict.client.get(f"{address}/events")
-        assert (refused.status_code, int(refused.headers["retry-after"]) > 0) == (503, True)
+        assert refused.status_code == 503
+        assert int(refused.headers["retry-after"]) > 0
     # The place of a client that is gone is free again.
     wait_for(lambda: strict.client.head(f"{address}/events").status_code in (200, 204))
     strict.remove(address)
@@ -124,7 +127,8 @@ def test_a_job_that_wants_too_much_memory_fails_in_words(brief):
     address = brief.post({"question": "trajectory", "request": {"times": {"stop": 400, "step": 1e-4}}})
     assert brief.finished(address)["status"] == "failed"
     answer = brief.result(address)
-    assert (answer.status_code, str(2**31) in answer.text) == (422, True)
+    assert answer.status_code == 422
+    assert str(2**31) in answer.text
 
 
 @pytest.mark.thorough
@@ -139,7 +143,8 @@ def test_a_job_that_runs_too_long_is_ended(tmp_path):
 
 def assert_has_no_store(service):
     refused = service.client.post("/jobs", json=SHORT)
-    assert (refused.status_code, str(service.folder) in refused.text) == (503, False)
+    assert refused.status_code == 503
+    assert str(service.folder) not in refused.text
 
 
 def test_a_data_folder_that_cannot_be_used_costs_the_jobs_alone(tmp_path):

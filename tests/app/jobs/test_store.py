@@ -88,7 +88,8 @@ def test_a_result_is_kept_and_reported_again_when_its_state_could_not_be_written
     job = ended(store)
     store.succeed(job, store.results / ".new", "text/plain")
     assert store.result(job).read_bytes() == b"answer"
-    assert (store.known(job).state, store.known(job).progress) == (JobState.SUCCESSFUL, 100)
+    assert store.known(job).state == JobState.SUCCESSFUL
+    assert store.known(job).progress == 100
     assert len(store.events(job, 0)) == 3
 
 
@@ -124,7 +125,8 @@ def test_only_the_latest_events_are_kept_under_their_numbers(store):
     numbers = [number for number, _ in store.events(job, 0)]
     assert numbers == list(range(EVENTS_KEPT + 3, 2 * EVENTS_KEPT + 3))
     assert [number for number, _ in store.events(job, numbers[-2])] == numbers[-1:]
-    assert (store.known(job).state, store.known(job).progress) == (JobState.RUNNING, 99)
+    assert store.known(job).state == JobState.RUNNING
+    assert store.known(job).progress == 99
 
 
 @pytest.mark.parametrize(
@@ -217,7 +219,8 @@ def test_jobs_of_the_layout_with_calls_among_the_jobs_are_taken_over(tmp_path):
         )
     with closing(Store(tmp_path)) as store:
         assert store.call(job) == b"call"
-        assert (store.counts().kept, store.counts().used) == (1, 4)
+        assert store.counts().kept == 1
+        assert store.counts().used == 4
         with pytest.raises(FullForClient):
             make(store, ADDRESS, Settings(jobs_client_max=1))
 

@@ -76,7 +76,7 @@ def test_a_squeezed_circle_is_an_ellipse_and_a_part_of_it():
     assert abs(np.hypot(x, 2.0 * y) - 30.0).max() <= 2.0 * SAG
     assert whole[0] == pytest.approx(whole[-1])
     half = points_of(SPACE.add_ellipse((0, 0), major_axis=(0, 4), ratio=0.5, end_param=pi), 1.0)
-    assert_near(half[[0, -1]], np.array([(0.0, 4.0), (0.0, -4.0)]), ROUNDING)
+    assert_near(half[[0, -1]], [(0.0, 4.0), (0.0, -4.0)], ROUNDING)
     assert_near(half[:, 0].min(), -2.0, SAG)
 
 

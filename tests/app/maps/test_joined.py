@@ -34,7 +34,8 @@ def test_lines_stay(features):
 
 def test_a_path_that_closes_stays_a_line():
     [(shape, ring)] = shapes(joined(lines(*FOUR, role="path")))
-    assert (shape, ring[0]) == ("line", ring[-1])
+    assert shape == "line"
+    assert ring[0] == ring[-1]
 
 
 def test_lines_that_close_are_areas_in_their_places_whatever_their_order_and_direction():

@@ -373,7 +373,8 @@ def test_the_command_takes_a_map_for_a_dance_and_gives_one(tmp_path, monkeypatch
     said("maps", "dance.toml", "--output", "dance.dxf", aside=None)
     assert "camphor" in run("places", "dance.dxf", "--output", "again.json").stdout
     again = json.loads(Path("again.json").read_text())
-    assert (again["path"]["kind"], len(again["venue"]["features"])) == ("waypoints", 2)
+    assert again["path"]["kind"] == "waypoints"
+    assert len(again["venue"]["features"]) == 2
 
 
 # -- several dances ------------------------------------------------------------------------------------------

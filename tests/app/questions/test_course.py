@@ -46,5 +46,6 @@ def test_how_near_benches_come_to_each_area_is_said_at_the_same_samples(ask):
 )
 def test_a_path_that_the_dragon_cannot_follow_has_a_course_without_stretches(ask, more):
     answer = ask("course", BODY | {"breaches": True} | more)
-    assert (answer["breaches"], answer["gaps"]) == (None, None)
+    assert answer["breaches"] is None
+    assert answer["gaps"] is None
     assert len(answer["x"]) > 5

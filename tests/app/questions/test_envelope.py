@@ -35,7 +35,8 @@ def test_several_polygons_are_a_multipolygon():
 
 def test_files_have_the_polygon_and_the_hole_as_its_own_line(ask, tmp_path):
     feature = ask.send("envelope", BODY, GEOJSON_TYPE).json()
-    assert (feature["type"], feature["properties"]["excess"]) == ("Feature", ENVELOPE.excess)
+    assert feature["type"] == "Feature"
+    assert feature["properties"]["excess"] == ENVELOPE.excess
     assert feature["geometry"]["coordinates"] == OUTLINE
     document = ezdxf.read(io.StringIO(ask.file("envelope", BODY, DXF_TYPE).decode()))
     assert (document.units, document.audit().has_errors) == (ezdxf.units.M, False)
@@ -55,7 +56,8 @@ def test_several_dances_have_the_ground_of_each_also_in_files(ask, tmp_path):
     for part, answer in ((LOW, low), (HIGH, high)):
         alone = {name: part[name] for name in ("dragon", "path")} | {name: answer[name] for name in ("start", "stop")}
         assert answer == ask("envelope", alone | BEYOND) | {"name": part.get("name")}
-    assert (got["start"], got["stop"]) == (8.0, 12.0)
+    assert got["start"] == 8.0
+    assert got["stop"] == 12.0
     assert got["distance"] == min(low["distance"], high["distance"]) == pytest.approx(2.85, abs=2e-3)
     features = ask.send("envelope", SEVERAL, GEOJSON_TYPE).json()["features"]
     named = [(one["properties"]["dragon"], one["properties"]["dragon_name"]) for one in features]

@@ -149,7 +149,8 @@ def test_under_a_path_of_a_proxy_addresses_are_whole(tmp_path, proxy):
         assert [link["href"].startswith(location) for link in job.json()["links"]] == [True, True]
         assert httpx.get(f"{url}{location}").status_code == 200
         described = client.get("/openapi.json").json()["servers"][0]["url"]
-        assert (location.rpartition("/")[0], described) == ("/dragon/jobs", "/dragon")
+        assert location.rpartition("/")[0] == "/dragon/jobs"
+        assert described == "/dragon"
 
 
 # A setting, the path that the proxy sends, its header, and the Location that follows.
@@ -182,7 +183,8 @@ def test_the_unit_of_systemd_is_one_and_leaves_few_rights(tmp_path):
     unit = tmp_path / "bench-dragon.service"
     unit.write_text(shown("[Unit]", **{"/opt/bench-dragon/bin/bench-dragon": "/bin/true"}))
     checked = subprocess.run(["systemd-analyze", "verify", unit], capture_output=True, text=True)
-    assert (checked.returncode, checked.stderr) == (0, "")
+    assert checked.returncode == 0
+    assert checked.stderr == ""
     rated = subprocess.run(
         ["systemd-analyze", "security", "--offline=true", "--threshold=20", unit], capture_output=True, text=True
     )

@@ -18,7 +18,8 @@ def test_a_file_is_the_same_as_gzip_and_plain_with_a_tag_of_each_form(client, pa
     answer = client.get(path, headers=UNPACKED).raise_for_status()
     with client.stream("GET", path, headers=PACKED) as packed:
         assert gzip.decompress(b"".join(packed.iter_raw())) == answer.content
-    assert (packed.headers["Content-Encoding"], "Content-Encoding" in answer.headers) == ("gzip", False)
+    assert packed.headers["Content-Encoding"] == "gzip"
+    assert "Content-Encoding" not in answer.headers
     assert int(packed.headers["Content-Length"]) < len(answer.content)
     vary = "Accept-Encoding, Accept-Language" if path in ("/", "/how") else "Accept-Encoding"
     assert answer.headers["Vary"] == packed.headers["Vary"] == vary
@@ -68,7 +69,8 @@ def test_browsers_keep_the_files_of_a_page_until_one_changes(client, path):
         # Of no edition, and of a page that was open before a new version came.
         for folder in ("page", "page-0123456789abcdef"):
             other = client.get(f"/{folder}/{address}")
-            assert (other.content, other.headers["Cache-Control"]) == (kept.content, "no-cache")
+            assert other.content == kept.content
+            assert other.headers["Cache-Control"] == "no-cache"
 
 
 def test_the_edition_depends_on_the_files_alone(tmp_path):
@@ -102,7 +104,8 @@ LONG = "x" * 20_000
 )
 def test_a_too_long_address_is_answered_to_a_person_in_a_page(server, path, language, lang, words):
     answer = httpx.get(f"{server}{path}?{LONG}", headers={"Accept": BROWSER, "Accept-Language": language})
-    assert (answer.status_code, answer.headers["Connection"]) == (414, "close")
+    assert answer.status_code == 414
+    assert answer.headers["Connection"] == "close"
     assert answer.headers["Content-Type"] == "text/html; charset=utf-8"
     for text in (f'<html lang="{lang}">', f"<p>{words}</p>", '<a href="./">'):
         assert text in answer.text
@@ -113,4 +116,5 @@ def test_a_too_long_address_is_answered_to_a_person_in_a_page(server, path, lang
 @pytest.mark.parametrize("path, accept", [("/", "*/*"), ("/turn", BROWSER)])
 def test_a_too_long_address_is_a_problem_to_a_program(server, path, accept):
     answer = httpx.get(f"{server}{path}?{LONG}", headers={"Accept": accept})
-    assert (answer.status_code, answer.headers["Content-Type"]) == (414, "application/problem+json")
+    assert answer.status_code == 414
+    assert answer.headers["Content-Type"] == "application/problem+json"

@@ -79,7 +79,8 @@ def test_a_question_about_several_dances_has_rows_of_its_own(name, column, value
     results = [row[question_of(name, ["dances"]).map_column] for row in good_rows]
     assert results == pytest.approx(values or results)
     assert {type(result) for result in results} == {float}
-    assert (bad_row["error.code"], "dances[1].dragon.width" in bad_row["error.message"]) == ("invalid-value", True)
+    assert bad_row["error.code"] == "invalid-value"
+    assert "dances[1].dragon.width" in bad_row["error.message"]
 
 
 def test_a_row_about_one_dance_refuses_several():
@@ -108,7 +109,8 @@ def test_the_row_of_a_table_is_what_the_table_says():
     benches = [BENCH, BENCH | {"y": 9.0}, BENCH | {"x": 0.2, "y": 0.1}]
     row, alone = (rows("overlaps", {"benches": benches[:count]}, {"margin": [0.0]})[0] for count in (3, 1))
     assert (row["pairs"], row["benches.0"], row["benches.1"], row["agree"]) == (1, 0, 2, True)
-    assert (row["separation"], alone["separation"]) == (pytest.approx(-0.2, abs=1e-12), None)
+    assert row["separation"] == pytest.approx(-0.2, abs=1e-12)
+    assert alone["separation"] is None
 
 
 def test_a_bad_design_is_a_row_with_its_error_and_the_others_are_answered():

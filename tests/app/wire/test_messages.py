@@ -105,13 +105,15 @@ def test_a_refusal_has_the_parts_of_its_sentence_with_numbers_and_units(ask):
             "m": {"text": "0.55 m", "value": 0.55, "unit": "m"},
         },
     }
-    assert (benches["template"], benches["got"]) == ("{field} must be a whole number", {"text": '"x"', "value": "x"})
+    assert benches["template"] == "{field} must be a whole number"
+    assert benches["got"] == {"text": '"x"', "value": "x"}
     assert [word for word in ("template", "got", "values") if benches[word] != problem[word]] == []
 
 
 def test_a_refusal_of_too_many_parameters_speaks_of_no_body(ask):
     answer = ask.send("turn?" + "&".join(f"n{k}=1" for k in range(150)))
-    assert (answer.status_code, "body" in answer.text) == (422, False)
+    assert answer.status_code == 422
+    assert "body" not in answer.text
 
 
 def test_a_name_has_the_same_unit_in_all_requests():
@@ -130,7 +132,8 @@ def test_a_name_has_the_same_unit_in_all_requests():
 @pytest.mark.parametrize("text", ["龙" * 500, "\x01" * 300, '"\\' * 300, "{field}"])
 def test_a_problem_stays_short_whatever_its_values_hold(ask, text):
     answer = ask.send("trajectory", {f"{k}{text}": 1 for k in range(50)})
-    assert (answer.status_code, len(answer.content) <= BYTES_MAX) == (422, True)
+    assert answer.status_code == 422
+    assert len(answer.content) <= BYTES_MAX
     assert answer.json()["errors"]
 
 

@@ -85,6 +85,7 @@ def test_words_say_how_an_answer_is_known_where_a_language_is_asked_for_and_only
     assert plain.json()["words"] is None
     assert plain.headers["etag"] != worded.headers["etag"]
     words = worded.json()["words"]
-    assert (words["title"], words["exact"]) == ("First contact", f"Contact at {worded.json()['time']:.6f} s")
+    assert words["title"] == "First contact"
+    assert words["exact"] == f"Contact at {worded.json()['time']:.6f} s"
     assert words["engines"]["rows"][1:] == [[name, "apart", "they overlap"] for name in ENGINES]
     assert "alone. They agree." in words["engines"]["caption"]

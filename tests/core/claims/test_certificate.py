@@ -12,7 +12,8 @@ DANCE = Dance(Dragon(5), Spiral())
 
 def test_every_certificate_shows_the_sentences_of_its_claim():
     chance = core.contact_probability(DANCE, core.Wobble(), 3, 1, stop=10.0)
-    assert (chance.claim.kind, chance.claim.within) == (ClaimKind.CONTACT_PROBABILITY, 3 - chance.strayed)
+    assert chance.claim.kind == ClaimKind.CONTACT_PROBABILITY
+    assert chance.claim.within == 3 - chance.strayed
     certificate = core.first_contact(DANCE, stop=10.0).certificate
     for result in (certificate, chance):
         assert result.method == claim_words(result.claim)

@@ -35,7 +35,8 @@ def test_a_dragon_is_summarised_by_its_sizes_or_by_its_extents():
 def test_a_few_passages_are_listed_and_more_are_counted(more, listed):
     passages = [Passage(1.5, until_time=k + 1.0) for k in range(PASSAGES_LISTED + more)]
     summary = DanceSummary.of(Dance(Dragon(5), Spiral(), 1.0, passages))
-    assert (len(summary.passages), summary.passage_count) == (listed, PASSAGES_LISTED + more)
+    assert len(summary.passages) == listed
+    assert summary.passage_count == PASSAGES_LISTED + more
 
 
 # Dances, what is asked, and the kind and the end of the claim.
@@ -55,7 +56,8 @@ def test_a_search_claims_what_it_answers(dance, query, kind, end):
     assert [query.get(name, 0.0) for name in ("margin", "stray", "start")] == [claim.margin, claim.stray, claim.start]
     clear = contact.end.time if contact.end else None
     assert (claim.clear_until, claim.time) == (contact.time_bracket or (clear, contact.time))
-    assert (claim.benches, contact.certificate.clear_until) == (contact.benches, claim.clear_until)
+    assert claim.benches == contact.benches
+    assert contact.certificate.clear_until == claim.clear_until
 
 
 def test_a_start_within_rounding_of_the_margin_claims_no_clear_time():
@@ -69,6 +71,7 @@ def test_a_claim_is_plain_values_that_another_process_can_have():
     claim = tolerance(STREET, start=20.0).certificate.claim
     assert (claim.kind, claim.touches, claim.start, claim.venue) == (ClaimKind.SAFE_STRAY, False, 20.0, False)
     again = pickle.loads(pickle.dumps(claim))
-    assert (again, hash(again)) == (claim, hash(claim))
+    assert again == claim
+    assert hash(again) == hash(claim)
     dragon = claim.dance.dragon
     assert {type(size) for size in (*dragon.lengths, *dragon.widths, dragon.head_length, dragon.overhang)} == {float}

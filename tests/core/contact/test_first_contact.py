@@ -95,7 +95,8 @@ def test_a_graze_is_met_with_a_larger_margin_and_passed_with_a_smaller_one(drago
     assert_near(graze.time, bottom, 1e-5)
     spare = graze.clearance - margin
     met, passed = (first_contact(dance, margin=margin + part * spare) for part in (1.001, 0.999))
-    assert (met.outcome, met.benches) == (Outcome.CONTACT, graze.benches)
+    assert met.outcome == Outcome.CONTACT
+    assert met.benches == graze.benches
     assert met.time - graze.time < AROUND < (passed.time or passed.end.time) - graze.time
 
 
@@ -111,7 +112,8 @@ def test_an_undecided_contact_names_the_pair_that_surely_overlaps_and_carries_no
     least = least_clearance(dance)
     assert (contact.outcome, contact.time, contact.benches) == (Outcome.UNDECIDED, None, None)
     claim = contact.certificate.claim
-    assert (claim.kind, claim.benches) == (ClaimKind.UNDECIDED, contact.overlapping)
+    assert claim.kind == ClaimKind.UNDECIDED
+    assert claim.benches == contact.overlapping
     assert (claim.clear_until, claim.time) == contact.time_bracket
     clear, within = contact.time_bracket
     slow = SlowDance.of(dance.dragon, dance.path)
@@ -123,7 +125,8 @@ def test_an_undecided_contact_names_the_pair_that_surely_overlaps_and_carries_no
     gaps, pairs = slow.clearance([within + 1e-6])
     assert gaps[0] < 0.0
     assert tuple(pairs[0]) == contact.overlapping
-    assert (least.distance, least.at_least) == (0.0, None)
+    assert least.distance == 0.0
+    assert least.at_least is None
     assert slow.pair_gap(least.time + 1e-6, least.benches) < 0.0
 
 
@@ -138,7 +141,8 @@ def test_a_slow_contact_before_time_zero_is_decided_as_the_same_one_after_it(sta
     later = first_contact(spiral)
     contact = first_contact(turn, start=start)
     least = least_clearance(turn, start=start)
-    assert (later.outcome, contact.outcome) == (Outcome.CONTACT, Outcome.CONTACT)
+    assert later.outcome == Outcome.CONTACT
+    assert contact.outcome == Outcome.CONTACT
     assert_bracketed(contact)
     assert_near([contact.time, least.time], [later.time + turn.begin] * 2, ACCURACY)
     assert contact.benches == later.benches
@@ -152,8 +156,10 @@ def test_a_contact_that_is_certain_but_perhaps_not_the_first_fails(judge):
     report = judge(dance)
     failure = report.failures[0]
     assert report.verdict is Judgement.FAILS
-    assert (failure.kind, failure.benches) == (FailureKind.CONTACT, contact.overlapping)
-    assert (failure.time, failure.time_bracket) == (contact.time_bracket[1], contact.time_bracket)
+    assert failure.kind == FailureKind.CONTACT
+    assert failure.benches == contact.overlapping
+    assert failure.time == contact.time_bracket[1]
+    assert failure.time_bracket == contact.time_bracket
     assert_near(report.stop, failure.time, ACCURACY)
     assert "at the latest; up to 216." in failure.message
 

@@ -21,4 +21,5 @@ from core.contact.stage import Stage
 def test_rings_prove_nothing_elsewhere(second):
     performance = Performance([Part(Dance(Dragon(80), path)) for path in (Spiral(1.1, 10.0), second)])
     stage = Stage(performance, (0.0, 50.0), 0.0)
-    assert (stage.rings, stage.clear_until()) == ({}, 0.0)
+    assert stage.rings == {}
+    assert stage.clear_until() == 0.0

@@ -41,7 +41,8 @@ def test_the_rest_before_a_fold_is_clear_only_where_the_gap_exceeds_the_motion_l
     folding = stage.folding(end)
     assert folding == [0, 1]
     met = to_fold(stage, EncounterMarch(stage), 0.0, end, folding)
-    assert (met.ended, met.proven) == (Ended.REACHED, end)
+    assert met.ended == Ended.REACHED
+    assert met.proven == end
     stage.enter(end - 1e-4, end)
     gap, _ = stage.nearest()
     # Benches move by a millimetre and more in the last tenth of a millisecond.

@@ -52,7 +52,8 @@ def assert_all_clear(dragon, turn, margin=0.0):
     """All benches pass the turn, although only a part of the dance is followed."""
     way, front = way_followed(dragon, turn, margin)
     span = 1.6 * float(dragon.chords.sum())
-    assert (way < span, front.benches < dragon.benches) == (True, True)
+    assert way < span
+    assert front.benches < dragon.benches
     assert first_contact(Dance(dragon, turn), margin=margin, start=-100.0, stop=span).outcome is Outcome.CLEAR
 
 
@@ -109,7 +110,8 @@ def test_just_deeper_a_bench_cannot_follow_and_above_all_do_without_contact(name
 def test_nothing_limits_a_tiny_dragon_down_to_the_centre():
     result = deepest_turn(Dragon(5, 0.1, 0.1, 0.01, 0.01), 1.7)
     step = ENTRY_STEP * 4.5
-    assert (result.limited_by, result.entry_bracket) == (TurnLimit.CENTRE, (0.0, step))
+    assert result.limited_by == TurnLimit.CENTRE
+    assert result.entry_bracket == (0.0, step)
     assert result.scan_step == step
 
 

@@ -62,7 +62,8 @@ def test_no_dragons_meet_above_the_minimum_pitch_and_two_do_below_it(seed):
 def test_dragons_of_223_benches(count, pitch, limited_by):
     result = minimum_pitch(Dragon(), dragons=count)
     assert_near(result.pitch, pitch, 1e-8)
-    assert (result.limited_by, result.justified_by) == (limited_by, JustifiedBy.BOUND)
+    assert result.limited_by == limited_by
+    assert result.justified_by == JustifiedBy.BOUND
     assert result.proven_up_to is None
 
 

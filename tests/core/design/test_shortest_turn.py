@@ -93,10 +93,12 @@ def test_the_contests_turn_is_limited_by_the_least_radius_and_the_circle():
     circle. One bench has the same turn."""
     result = answer(2.0)
     alone = shortest_turn(Dragon(1), PITCH)
-    assert (result.limited_by, result.turn.exit_radius) == (TurnLimit.LEAST_RADIUS, RADIUS)
+    assert result.limited_by == TurnLimit.LEAST_RADIUS
+    assert result.turn.exit_radius == RADIUS
     assert_near(min(result.turn.radii), LEAST, 1e-9)
     assert result.turn.length < deepest_turn(Dragon(), PITCH).turn.length - 1.1
-    assert (alone.limited_by, alone.overlaps) == (TurnLimit.LEAST_RADIUS, 0)
+    assert alone.limited_by == TurnLimit.LEAST_RADIUS
+    assert alone.overlaps == 0
     assert alone.length_bracket == result.length_bracket
 
 
@@ -111,7 +113,8 @@ def test_spent_work_leaves_a_wider_bracket_that_holds_the_narrow_one(ratio, work
 
 def test_benches_that_cannot_touch_are_limited_by_the_coil_that_they_can_follow():
     result = shortest_turn(Dragon(2), 0.5, 6.0, 5.0)
-    assert (result.limited_by, result.evaluations > 0) == (TurnLimit.LEAST_RADIUS, True)
+    assert result.limited_by == TurnLimit.LEAST_RADIUS
+    assert result.evaluations > 0
     assert result.entry_bracket[1] - result.entry_bracket[0] < 1e-3
 
 

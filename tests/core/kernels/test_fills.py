@@ -58,7 +58,8 @@ def test_a_later_rectangle_covers_an_earlier_one_and_all_channels_alike():
     rows = [row_of(12.0, 15.0, 0.0, 8.0, 4.0), row_of(20.0, 15.0, 0.0, 8.0, 4.0)]
     plane = filled(rows, inks=[[1.0, 2.0, 3.0]] * 2)
     fill_rectangles(plane, np.array(rows[1:]), 0.0, np.array([[4.0, 5.0, 6.0]] * 2))
-    assert (plane[15, 10].tolist(), plane[15, 16].tolist()) == ([1, 2, 3], [4, 5, 6])
+    assert plane[15, 10].tolist() == [1, 2, 3]
+    assert plane[15, 16].tolist() == [4, 5, 6]
     assert np.array_equal(filled(rows)[:, 13:], filled(rows[1:])[:, 13:])
     assert filled(rows, 1.0, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]])[15, 27].tolist() == [4, 5, 6]
 

@@ -43,7 +43,7 @@ def test_a_safe_stray_is_what_a_bench_and_its_nearest_have_between_them():
         poses = bench_poses(PLACES[t])
         between = separation(poses[a], sizes[a], poses[b], sizes[b]).separation / (gain[a] + gain[b])
         least = [min(MOST, between[(a == k) | (b == k)].min()) for k in range(DRAGON.benches)]
-        assert_near(safe[t], np.array(least), 2e-9)
+        assert_near(safe[t], least, 2e-9)
         known = np.array(least) < MOST
         assert (safe[t] < least)[known].all()
 
@@ -88,6 +88,7 @@ def test_benches_that_overlap_in_their_places_touch_although_nobody_strays():
     safe = np.ones((1, 4))
     state = np.zeros((5, 2))
     made.measure(MOST, np.ones(4), places, safe)
-    assert (safe[0, 0], safe[0, 2]) == (0.0, 0.0)
+    assert safe[0, 0] == 0.0
+    assert safe[0, 2] == 0.0
     assert made.dance(np.zeros(1), np.zeros((1, 5, 2)), NO_PLAY[:4], places, np.zeros((1, 5, 2)), safe, state) == 0
     assert (made.first, made.second, made.furthest) == (0, 2, 0.0)

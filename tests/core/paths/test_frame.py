@@ -50,7 +50,8 @@ def test_everything_that_has_a_place_is_moved(moved):
     assert (new.speed == old.speed).all()
     head = dance.path.head(100.0)
     there = STANDARD.path.head(100.0)
-    assert (head.radius, head.theta) == (there.radius, there.theta)
+    assert head.radius == there.radius
+    assert head.theta == there.theta
     assert_near(dance.path.drawn(new.position), move(STANDARD.path.drawn(old.position)), 10 * ROUNDING)
 
 
@@ -71,7 +72,7 @@ def test_the_ground_and_the_pose_that_shows_a_contact_lie_where_the_dance_is(mov
     flip = 1 if dance.path.frame.clockwise else -1
     for rings, others in zip(old.polygons, new.polygons, strict=True):
         for ring, other in zip(rings, others, strict=True):
-            assert_near(np.array(other[::flip]), move(ring), ROUNDING)
+            assert_near(other[::flip], move(ring), ROUNDING)
     result = tolerance(dance, **span)
     assert result.stray == tolerance(STANDARD, **span).stray
     strays = result.exhibit.handles - trajectory(dance, result.exhibit.time).position

@@ -79,6 +79,7 @@ def test_the_curvature_is_below_its_bounds(path):
 
 def test_a_drawing_of_the_whole_path_begins_where_its_first_point_is(path):
     low, high = path.drawn_between(path.begin, path.end)
-    assert (low, high) == (path.begin, path.end)
+    assert low == path.begin
+    assert high == path.end
     assert_near(path.drawn_begin(path.position(np.array([low, low + 5.0]))), low, ON_PATH)
     assert path.drawn_between(-1e4, path.end)[0] == (-1e4 if path.spiral else path.begin)

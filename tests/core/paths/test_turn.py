@@ -45,7 +45,8 @@ def test_an_invalid_turn_names_what_was_asked_and_never_a_piece(name):
 )
 def test_a_free_exit_leaves_on_the_coil_outwards_in_its_direction(ratio, entry, leaving, length):
     turn = Turn(1.7, ratio=ratio, entry_radius=entry, exit_radius=leaving)
-    assert (turn.entry_radius, turn.exit_radius) == (entry, leaving)
+    assert turn.entry_radius == entry
+    assert turn.exit_radius == leaving
     assert_near(turn.length, length, 5e-5)
     assert_near(turn.radii[0], ratio * turn.radii[1], 1e-14)
     coil = Route([Coil(1.7, leaving / 1.7, 16.0, rotation=np.pi)])

@@ -37,4 +37,5 @@ def test_a_reason_is_one_sentence_with_its_numbers(words):
 def test_a_proposal_says_what_it_is():
     (one,) = propose(Venue(box("Yard", 0, 0, 24, 20)), Dragon(1), figures=["ring"], count=1).proposals
     assert one.message.startswith("A ring of 1 bench, ")
-    assert (one.clearance, one.sharpest_bend) == (None, None)
+    assert one.clearance is None
+    assert one.sharpest_bend is None
