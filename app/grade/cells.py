@@ -6,6 +6,7 @@ so that 80,000 cells with the same text give one note.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -16,6 +17,8 @@ from app.grade.words import Note, note
 
 # Most texts that are quoted, and most characters of each.
 TEXTS_MOST, TEXT_LENGTH = 3, 30
+# A unit of the contest behind a number.
+UNIT = re.compile(r"(?<=[\d.])\s*(m/s|m|米/秒|米)$")
 
 
 def cell_name(row: int, column: int) -> str:
@@ -40,14 +43,15 @@ class OddCells:
     texts: dict[str, list[str]] = field(default_factory=dict)
 
     def value(self, cell: Cell, row: int, column: int) -> float:
-        """Number in a cell, also if it is stored as text, maybe with a decimal comma; NaN for a blank or other text."""
+        """Number in a cell, also as text, maybe with a decimal comma or its unit; NaN for a blank or other text."""
         if isinstance(cell, float):
             return cell
         if cell is None:
             return float("nan")
         place, text = cell_name(*((column, row) if self.turned else (row, column))), normalized(cell)
+        bare = UNIT.sub("", text)
         try:
-            number = float("nan" if "_" in text else text.replace(",", "."))  # Python reads 8.8_0 as 8.8
+            number = float("nan" if "_" in bare else bare.replace(",", "."))  # Python reads 8.8_0 as 8.8
         except ValueError:
             number = float("nan")
         if np.isfinite(number):

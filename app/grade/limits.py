@@ -15,13 +15,14 @@ from app.grade.words import Note, note
 from core import BenchDragonError, Dance, Dragon, Spiral
 from core.language import Listed
 
-# Shortest turn that counts as possible [m]: question 4 leaves open the ratio, and where the dance enters and leaves the
-# circle. core.turn_length_bounds(core.Dragon(), 1.7, ratio=None) proves in a minute that in every shorter turn an arc
-# is tighter than half of the head's chord, or benches overlap; a test recomputes it. core.shortest_turn with a free
-# ratio, whose bends are wider by the rounding that a proof needs, proves 8.223983 m.
-TURN_LENGTH_LEAST = 8.2147138
-# A shorter turn, by its ratio, entry and exit [m]; its length, rounded up [m]. Its first arc has 0.951 m of radius,
-# but every bench is proven to follow, and nothing touches. A search found it on 2026-11-30: a shorter one may exist.
+# Shortest turn whose arcs are no tighter than half of the head's chord [m]: question 4 leaves open the ratio, and where
+# the dance enters and leaves the circle. core.turn_length_bounds(core.Dragon(), 1.7, ratio=None) proves in a minute
+# that in every shorter turn an arc is tighter than that, or benches overlap; a test recomputes it. core.shortest_turn
+# with a free ratio, whose bends are wider by the rounding that a proof needs, proves 8.223983 m.
+WIDER_LENGTH = 8.2147138
+# The shortest turn known, by its ratio, entry and exit [m]; its length, rounded up [m]. Its first arc has 0.951 m of
+# radius, but every bench is proven to follow, and nothing touches. A search found it on 2026-11-30: a shorter one may
+# exist. With its ratio and exit, entries up to the circle give all lengths above it (12 of them danced, 2026-11-30).
 TIGHTER_TURN = (0.66439183, 3.8721443, 4.5)
 TIGHTER_LENGTH = 7.69341
 # Side of the limit on which a number keeps it [1].
@@ -34,7 +35,7 @@ def limit_of(name: str) -> float | None:
     """The limit of a number, in its unit; None for the time of first contact, which has none."""
     if name not in SAFE_SIDE:
         return None
-    return TURN_LENGTH_LEAST if name == "turn_length" else right_answer(name)
+    return TIGHTER_LENGTH if name == "turn_length" else right_answer(name)
 
 
 def beyond(name: str, value: float) -> float:
@@ -49,7 +50,7 @@ def broken(name: str, value: float) -> Note:
         return _too_fast(value)
     if name == "pitch":
         return _contact(value)
-    return note("breaks_turn_length", least=f"{TURN_LENGTH_LEAST:.7f}", tighter=f"{TIGHTER_LENGTH}")
+    return note("breaks_turn_length", least=f"{WIDER_LENGTH:.7f}", tighter=f"{TIGHTER_LENGTH}")
 
 
 def _too_fast(speed: float) -> Note:

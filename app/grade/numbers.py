@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 from app.grade.contacts import PITCH_RANGE, longest_overlap
 from app.grade.judged import Rating
-from app.grade.limits import SAFE_SIDE, beyond, broken, limit_of
+from app.grade.limits import SAFE_SIDE, WIDER_LENGTH, beyond, broken, limit_of
 from app.grade.shortcuts import UNITS, Finding, Shortcut, pitch_grids, right_answer, shortcuts
 from app.grade.words import Note, note
 
@@ -93,8 +93,9 @@ def _graded(name: str, value: float, half_unit: float) -> Graded:
     if is_near and SAFE_SIDE[name] * (value - right) > 0.0:
         return Graded(Rating.RIGHT, [note(f"{name}_rounded_safely", **words)], [])
     if name == "turn_length" and value < right:
-        kind = "possible_turn" if value + half_unit >= TURN_OF_TWO_LEAST else "possible_turn_of_ratio"
-        return Graded(Rating.RIGHT, [note(kind, length=f"{right:.7f}")], [])
+        kinds = ("possible_turn", TURN_OF_TWO_LEAST), ("possible_turn_of_ratio", WIDER_LENGTH)
+        kind = next((kind for kind, least in kinds if value + half_unit >= least), "possible_turn_tighter")
+        return Graded(Rating.RIGHT, [note(kind, length=f"{right:.7f}", wider=f"{WIDER_LENGTH:.7f}")], [])
     return _wrong(name, value, half_unit)
 
 

@@ -14,7 +14,7 @@ from app.files.tables import handle_titles
 from app.grade.cells import cell_name
 from app.grade.decimals import decimals_of_file
 from app.grade.diagnosis import diagnosed, why_unexplained
-from app.grade.expected import KINDS, cells_of
+from app.grade.expected import KINDS, Workbook, cells_of
 from app.grade.grid import UnreadableTable
 from app.grade.handles import BENCHES
 from app.grade.judged import (
@@ -44,6 +44,8 @@ from core.language import joined, say
 
 # Endings of workbook files.
 WORKBOOK_ENDINGS = (".xlsx", ".xlsm")
+# What a turn differs in that question 4 allows.
+OTHER_TURN = {"other_entry_radius", "equal_arcs_of_turn"}
 
 
 class CellAnswer(Answer):
@@ -262,6 +264,8 @@ def _graded(name: str, data: bytes, budget: Budget) -> FileAnswer:
     verdict = worst_of(sheet.verdict for sheet in sheets)
     if verdict is Rating.WRONG and not findings:
         notes.append(why_unexplained(judgements))
+    if workbook is Workbook.RESULT4 and verdict is Rating.WRONG and {one.error for one in findings} <= OTHER_TURN:
+        notes.append(note("other_turn", length=f"{right_answer('turn_length'):.4f}"))
     return FileAnswer(
         file=name,
         workbook=workbook.value,

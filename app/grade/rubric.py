@@ -21,8 +21,9 @@ from app.grade.words import Note, note
 MEAN_SPEED = 0.1
 # Longest time between two instants that are compared [s], those of the contest.
 SPAN_MOST = 1.0
-# Share of the cells that may differ more, near the ends of the arcs of the turn [1].
-SHARE = 0.99
+# Share of the cells that agree at least where speeds belong to the positions, for those near the ends of the arcs of a
+# turn differ more; and where they may belong: with an arc of 0.95 m only 65 % agree of right ones [1].
+SHARE, SHARE_LEAST = 0.99, 0.5
 GOOD = (Rating.RIGHT, Rating.ROUNDED, Rating.INCOMPLETE)
 # Findings that show the method of the search for first contact.
 STEPPED = {"time_steps", "time_steps_before"}
@@ -62,7 +63,9 @@ def _criteria(by_kind: dict[TableKind, JudgedSheet], errors: set[str]) -> Iterat
         lacks_sheet = contact is None and not (position and speed)
         yield Criterion("speeds", None, note("rubric_speeds_unknown" if lacks_sheet else "rubric_speeds_alone"))
     else:
-        yield Criterion("speeds", consistent >= SHARE, note("rubric_speeds_share", share=f"{100 * consistent:.1f}"))
+        # Where arcs are tight, or begin, speeds change within a second: a part that differs shows nothing.
+        met = True if consistent >= SHARE else False if consistent < SHARE_LEAST else None
+        yield Criterion("speeds", met, note("rubric_speeds_share", share=f"{100 * consistent:.1f}"))
     # A rounded instant is refined or a step of a search: it does not show which.
     refined = _is_met(None if "rounded_instant" in errors else contact, errors & STEPPED)
     overhang = _is_met(contact, errors & NO_OVERHANG)

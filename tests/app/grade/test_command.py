@@ -11,7 +11,7 @@ import openpyxl
 import pytest
 
 import core
-from app.grade.limits import TIGHTER_LENGTH, TIGHTER_TURN, TURN_LENGTH_LEAST
+from app.grade.limits import TIGHTER_LENGTH, TIGHTER_TURN, WIDER_LENGTH
 from app.grade.numbers import TURN_OF_TWO_LEAST, gives
 from app.grade.report import typed
 from app.grade.shortcuts import pitch_grids, shortcuts
@@ -218,8 +218,11 @@ TYPED = [
     "pitch 0.42 -> wrong | too few to tell why",
     "pitch 0.44 -> wrong | too few to tell why",
     "pitch 0.4321 -> wrong | No known error",
-    "turn_length 8.21 -> infeasible | rounded down: 8.22 m is the smallest of as many digits",
-    "turn_length 8 -> infeasible | too few to tell the number from a wrong one",
+    "turn_length 7.69 -> infeasible | shortest turn known, rounded down: 7.70 m is the smallest of as many digits",
+    "turn_length 7.6935 -> right | right if the ratio, both radii and both places are stated",
+    "turn_length 8.2147 -> right | right if the ratio and both places are stated",
+    "turn_length 8.1 -> right | In every turn shorter than 8.2147138 m an arc is as tight as that",
+    "turn_length 8 -> incomplete | too few to tell the number from a wrong one",
     "turn_length 8.215 -> right | right if the ratio and both places are stated",
     "turn_length 8.2271 -> right | right if the ratio and both places are stated",
     "turn_length 9.4153 -> right | right if the ratio and both places are stated",
@@ -235,8 +238,8 @@ TYPED = [
     "turn_length 13.63 -> right | rounded up, as a shortest length must be; to the nearest digit it is 13.62 m",
     "turn_length 13.622 -> right | rounded up, as a shortest length must be",
     "turn_length 13.624 -> wrong",
-    "turn_length 8.2146 -> wrong | No known error",
-    "turn_length 8.1 -> wrong | too few to tell why",
+    "turn_length 7.1234 -> wrong | No known error",
+    "turn_length 7.1 -> wrong | too few to tell why",
     "turn_length 13.8 -> wrong | too few to tell why",
     "turn_length 20.5 -> wrong | too few to tell why",
 ]
@@ -254,7 +257,7 @@ def test_a_number_is_traced_to_its_shortcut_as_far_as_its_digits_go(row):
         assert f"One in {round(1.0 / one.probability)} numbers with as many digits" in one.evidence
     notes = " ".join(result.notes)
     if verdict != "wrong" or "too few" in note:
-        assert "overlap" not in notes
+        assert "benches overlap while" not in notes
     if noted or verdict != "wrong":
         assert bool(notes) is bool(note)
         assert note.strip() in notes
@@ -271,8 +274,8 @@ pitch        0.4202    wrong       benches 0 and 21 touch
 pitch        0.35      wrong       benches 0 and 23 touch at the start
 pitch        0.001     wrong       the dragon cannot stand on this spiral
 pitch        0.52      wrong
-turn_length  8.21      infeasible  8.2147138 m: in every shorter turn an arc is tighter
-turn_length  8.1       wrong       8.2147138 m
+turn_length  7.69      infeasible  7.69341 m, the length of the shortest turn known that every bench can follow
+turn_length  7.1       wrong       in every turn shorter than 8.2147138 m an arc is tighter
 turn_length  13.8      wrong
 collision_time  412.48  rounded
 """
@@ -336,13 +339,13 @@ def test_no_shorter_turn_has_arcs_of_two_to_one():
 def test_the_shortest_right_turn_is_the_proven_one(ratio):
     """Equal arcs give the least of all ratios."""
     low = core.turn_length_bounds(core.Dragon(), 1.7, ratio=ratio, budget=core.Budget(1e10))[0]
-    assert TURN_LENGTH_LEAST <= low < TURN_LENGTH_LEAST + 1e-7
+    assert WIDER_LENGTH <= low < WIDER_LENGTH + 1e-7
 
 
 def test_the_shortest_turn_known_with_a_tighter_arc_is_danced_without_contact():
     ratio, entry, leaving = TIGHTER_TURN
     dance = core.Dance(core.Dragon(), core.Turn(1.7, ratio=ratio, entry_radius=entry, exit_radius=leaving))
-    assert TIGHTER_LENGTH - 1e-5 < dance.path.length <= TIGHTER_LENGTH < TURN_LENGTH_LEAST
+    assert TIGHTER_LENGTH - 1e-5 < dance.path.length <= TIGHTER_LENGTH < WIDER_LENGTH
     assert core.first_contact(dance).outcome is core.Outcome.CLEAR
 
 

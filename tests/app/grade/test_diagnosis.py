@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 
 from app.grade.decimals import digits_of
+from app.grade.limits import TIGHTER_TURN
 from app.grade.report import graded
 from core import Budget, Dragon
 from tests.campaigns.hunt_grades import hunt
 from tests.support import students
 from tests.support.depth import further, often
 from tests.support.student_files import as_csv, as_file, in_layout
-from tests.support.students import AT_CONTACT, CONTACT, SPIRAL_TIMES, TURN_TIMES, spiral, turn
+from tests.support.students import AT_CONTACT, CONTACT, SPIRAL_TIMES, TURN_TIMES, lines, spiral, turn
 
 ONCE = Dragon(overhang=0.1375)
 
@@ -160,6 +161,16 @@ def errors(result):
     return [one.error for one in result.diagnosis]
 
 
+def test_a_shorter_turn_is_not_accused_of_what_question_4_allows():
+    """The shortest turn known: its speeds jump, and it is none of the errors."""
+    ratio, entry, leaving = TIGHTER_TURN
+    shorter = turn(TURN_TIMES, ratio=ratio, entry_radius=entry, exit_radius=leaving)
+    result = graded("result4.csv", lines(shorter, TURN_TIMES), Budget())
+    assert "Question 4 allows other turns" in result.notes[-1]
+    assert result.diagnosis == []
+    assert {one.met for one in result.rubric} == {None}
+
+
 def test_a_wrong_instant_is_traced_to_its_steps():
     assert errors(known("contact: other_instant")) == ["other_instant", "time_steps"]
 
@@ -168,7 +179,7 @@ def test_a_right_instant_that_was_rounded_is_called_so_and_contradicts_no_point_
     # It is also the last step of 0.01 s before the contact, and nothing shows that it was found so.
     result = grade_contact(spiral(np.array([412.47])))
     assert errors(result) == ["other_instant", "rounded_instant"]
-    assert "rounded to 2 decimals" in result.diagnosis[1].words
+    assert "right one to 2 decimals: it was rounded" in result.diagnosis[1].words
     assert met(result, "refined") is None
 
 

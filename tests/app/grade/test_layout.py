@@ -118,7 +118,7 @@ def test_a_handle_too_many_is_left_out_and_one_too_few_is_missing():
 @pytest.mark.parametrize("written", [by_xlsxwriter, lambda sheets: as_csv(*sheets.values())], ids=["workbook", "CSV"])
 def test_a_missing_sheet_makes_the_file_incomplete(written):
     result = grade(written({"位置": few()["位置"]}))
-    assert result.sheets[1].notes == ["The sheet of the speeds is missing."]
+    assert result.sheets[1].notes == ["The sheet of the speeds is missing, or has no numbers."]
     assert result.verdict == "incomplete"
 
 
@@ -344,7 +344,9 @@ def test_empty_columns_and_rows_count_as_missing_instants_and_handles():
     for row in rows[21:23]:
         row[1:] = [""] * 301
     sheet, _ = grade(as_csv(rows), "result1.csv").sheets
-    assert sheet.notes == [f"{100 * 448 + 201 * 2} cells are missing (1 handles and 100 instants without any)."]
+    assert sheet.notes == [
+        f"Cells that are missing: {100 * 448 + 201 * 2} (handles without any: 1, instants without any: 100)."
+    ]
 
 
 @pytest.mark.parametrize(

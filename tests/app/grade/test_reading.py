@@ -270,10 +270,11 @@ def with_cells(cells):
 
 
 def test_text_in_number_cells_is_reported_with_its_place():
-    sheet = with_cells({"C3": "—", "D3": str, "E3": lambda value: str(value).replace(".", ","), "B3": "8.8_0"})
+    texts = {"C3": "—", "D3": str, "E3": lambda value: str(value).replace(".", ","), "B3": "8.8_0"}
+    sheet = with_cells({**texts, "B4": lambda value: f"{value} m"})
     assert "C3 should hold a number, but holds the text “—”." in sheet.notes
     assert "B3 should hold a number, but holds the text “8.8_0”." in sheet.notes
-    assert "Numbers that are stored as text: 2, the first is in D3." in sheet.notes
+    assert "Numbers that are stored as text: 3, the first is in D3." in sheet.notes
     assert sheet.right == 4 * 448 - 2
 
 
