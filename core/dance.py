@@ -34,7 +34,8 @@ from core.errors import (
 )
 from core.language import phrase
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Period, checked_passages, nodes
-from core.paths.following import earliest_travel, refuse_tight_bends
+from core.paths.following import earliest_travel
+from core.paths.refusal import refuse_tight_bends
 from core.paths.route import Route
 from core.paths.spiral import Spiral, end_theta
 from core.values import Floats

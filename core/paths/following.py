@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -11,7 +10,7 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import InvalidValue, Quantity, Value, bound, quantities, say_value
+from core.errors import InvalidValue, Quantity, quantities, say_value
 from core.kernels.constants import K_END, K_START, LAG, PIECE_KIND, REAR_COSINE_LEAST, S_END, S_START, Follows
 from core.language import phrase, say
 from core.paths.route import Route
@@ -215,43 +214,6 @@ def _obstacle(bench: int, chord: float, path: Route, proof: kernels.Follower, re
     bench_way, along = path.position(proof.reached) - path.position(rear), path.tangent(rear)
     angle = math.acos(max(-1.0, min(1.0, float(bench_way @ along) / chord)))
     return Obstacle(bench, chord, proof.reached, rear, reason, angle)
-
-
-def refuse_tight_bends(dragon: Dragon, path: Route, time_of: Callable[[float], float]) -> None:
-    """Refuse a route on which a bench is not shown to follow.
-
-    time_of: the time at which the head is at a place [m] -> [s]
-    raises: InvalidValue (path)
-    """
-    if bends_widely(dragon, path) or not (obstacles := following(dragon, path).obstacles):
-        return
-    obstacle = obstacles[0]
-    x, y = path.position(obstacle.s)
-    rule = (
-        "must bend so that every bench can follow: bench {bench} ({chord}) cannot follow beyond s = {s}, at {at}, "
-        f"which its front handle reaches at {{time}}; {obstacle.reason.template}; a radius of {{least}} always suffices"
-    )
-    values: dict[str, Value] = {"bench": obstacle.bench, "at": f"({x:.4g}, {y:.4g}) m"}
-    values |= quantities("m", 6, chord=obstacle.chord, s=obstacle.s)
-    values |= quantities("s", 6, time=time_of(_head_at(dragon.chords, path, obstacle)))
-    values["least"] = bound(least_radius(obstacle.chord), 3, "m", up=True)
-    values["limit"] = degrees_most()
-    raise InvalidValue("path", rule, **values)
-
-
-def _head_at(chords: Floats, path: Route, obstacle: Obstacle) -> float:
-    """Place of the head when an obstacle's front handle is at its place [m]; the end of the path if that is nearer."""
-    sizes = np.zeros((obstacle.bench, kernels.SIZE_COLUMNS))
-    sizes[:, kernels.CHORD] = chords[: obstacle.bench]
-    chain = np.empty((obstacle.bench + 1, kernels.CHAIN_COLUMNS))
-
-    def arrived(s: float) -> bool:
-        path.follow(-s, obstacle.bench, sizes, chain)
-        return -float(chain[obstacle.bench, LAG]) >= obstacle.s
-
-    if obstacle.bench == 0:
-        return obstacle.s
-    return bisect(arrived, obstacle.s, path.end, width=ROOM_WIDTH, relative=ROOM_WIDTH)[1]
 
 
 def earliest_travel(dragon: Dragon, path: Route, tail_begin: float) -> float:

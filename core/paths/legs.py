@@ -61,8 +61,7 @@ class Legs(Route):
         self.straight = _checked_legs(straight, len(self.points) - 1)
         self.radius = _checked_radius(radius)
         _refuse_near(self.points)
-        ends = {"start_heading": start_heading, "end_heading": end_heading}
-        self._ends = "".join(f", {name}={value!r}" for name, value in ends.items() if value is not None)
+        self._headings = start_heading, end_heading
         pieces, firsts = self._laid_out(start_heading, end_heading)
         try:
             super().__init__(pieces, start, budget=budget)
@@ -71,8 +70,14 @@ class Legs(Route):
 
     def __repr__(self) -> str:
         arguments = f"{list(self.points)!r}, {sorted(self.straight)!r}, radius={self.radius!r}, start={self.start!r}"
-        text = f"Legs({arguments}{self._ends})"
+        names = zip(("start_heading", "end_heading"), self._headings, strict=True)
+        text = f"Legs({arguments}{''.join(f', {name}={value!r}' for name, value in names if value is not None)})"
         return text if len(text) <= REPR_MOST else Readable.__repr__(self)
+
+    def rounded(self, radius: float) -> Legs:
+        """The same legs with another radius [m] at their corners."""
+        first, last = self._headings
+        return Legs(self.points, sorted(self.straight), radius=radius, start_heading=first, end_heading=last)
 
     def _laid_out(self, start_heading: float | None, end_heading: float | None) -> tuple[list[Piece], list[int]]:
         """Lines, arcs and curves in the order of the dance, and the first point of each."""
