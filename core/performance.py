@@ -7,6 +7,7 @@ the dance has no continuation then.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -41,6 +42,7 @@ PARTS_MAX = 200
 BENCHES_MAX = 1_000_000
 # Length of the stretch of its dance that stands for a dragon which stands during a whole interval [s].
 STANDING = 1e-3
+COLOUR = re.compile("#[0-9a-f]{6}")
 
 
 @dataclass(frozen=True, repr=False)
@@ -50,6 +52,7 @@ class Part(Readable):
     dance: the dance
     delay: time of the performance at time 0 of the dance [s]
     name: name of the dragon; None without
+    colour: of the dragon in pictures, as #rrggbb; None: by its turn
 
     raises: InvalidValue
 
@@ -61,12 +64,15 @@ class Part(Readable):
     dance: Dance
     delay: float = 0.0
     name: str | None = None
+    colour: str | None = None
 
     def __post_init__(self) -> None:
         checked_type("dance", self.dance, Dance)
         object.__setattr__(self, "delay", checked_number("delay", self.delay, "s", -DELAY_MAX, DELAY_MAX))
         if self.name is not None:
             checked_name("name", self.name)
+        if self.colour is not None and not COLOUR.fullmatch(self.colour):
+            raise InvalidValue("colour", "must be #rrggbb, such as #b3261e", got=Given(self.colour))
 
     @property
     def begin(self) -> float:

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from core import Venue
+from core import Performance, Venue
 from core.plots import BLUE, VERMILION
 from core.shapes.engines import without_streets
 from core.values import Floats
 
-# Colours of the dragons in turn (Okabe and Ito).
-COLOURS = (BLUE, VERMILION, "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+# Colours of the dragons in turn (Okabe and Ito); as on the page, the first three are red, blue and green.
+COLOURS = (VERMILION, BLUE, "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 # The whole square is drawn if it is at most this many times as large as the dance; else only the part around the dance.
 SQUARE_MOST = 2.0
 # Length of a street that belongs to the square on a map [m].
 STREET = 5.0
 
 
-def colour_of(dragon: int) -> str:
-    """Colour of one of several dragons, by its number."""
-    return COLOURS[dragon % len(COLOURS)]
+def colour_of(performance: Performance, dragon: int) -> str:
+    """Colour of one of several dragons: its own, or one by its number."""
+    return performance.parts[dragon].colour or COLOURS[dragon % len(COLOURS)]
 
 
 def square_alone(venue: Venue) -> tuple[Floats, Floats]:

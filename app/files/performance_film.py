@@ -81,7 +81,9 @@ class PerformancePicture(FilmPicture):
             draw_dance(self.axes, part.dance.path, places[-1], np.empty((0, 4, 2)))
         look: dict[str, Any] = {"transform": self.axes.transAxes, "zorder": 9, "parse_math": False, "va": "top"}
         for k in range(min(len(places), LEGEND_MOST)):
-            self.axes.text(0.015, NAME_AT - NAME_STEP * k, self.name_of(k), color=colour_of(k), **look)
+            self.axes.text(
+                0.015, NAME_AT - NAME_STEP * k, self.name_of(k), color=colour_of(self.performance, k), **look
+            )
         return np.concatenate(places)
 
     @property
@@ -89,7 +91,7 @@ class PerformancePicture(FilmPicture):
         return [part.dance.dragon for part in self.performance.parts]
 
     def colours(self, dragon: int) -> tuple[str, str, str, str]:
-        own = colour_of(dragon)
+        own = colour_of(self.performance, dragon)
         return own, own, own, "black"
 
     def picture(

@@ -84,7 +84,7 @@ def _draw(axes: Axes, performance: Performance, handles: list[Floats], outlines:
     """Every path, pale, every bench in the colour of its dragon, every head as a ring."""
     plan(axes)
     for k, part in enumerate(performance.parts):
-        colour = colour_of(k)
+        colour = colour_of(performance, k)
         axes.plot(*part.dance.path.drawn(handles[k]).T, color=PALE, linewidth=0.6, zorder=1)
         style: dict[str, Any] = {"facecolor": colour, "edgecolor": "white", "linewidth": 0.2, "zorder": 2}
         axes.add_collection(PolyCollection(list(outlines[k]), rasterized=len(outlines[k]) > SHAPES_MAX, **style))
@@ -112,7 +112,7 @@ def _draw_pair(axes: Axes, encounter: FirstEncounter, outlines: list[Floats]) ->
         axes.add_collection(PolyCollection(list(own), facecolor="white", edgecolor=PALE, linewidth=0.8, zorder=2))
     for dragon, bench, hatch in zip(dragons, benches, ("", "////"), strict=True):
         label = say("bench {bench} of {dragon}", bench=bench, dragon=encounter.performance.name_of(dragon))
-        style: dict[str, Any] = {"facecolor": colour_of(dragon), "hatch": hatch, "label": label}
+        style: dict[str, Any] = {"facecolor": colour_of(encounter.performance, dragon), "hatch": hatch, "label": label}
         axes.add_patch(
             Polygon(outlines[dragon][bench], edgecolor="black", alpha=0.85, linewidth=0.6, zorder=3, **style)
         )

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from app.files.looks import colour_of, square_alone, with_square
+from app.files.looks import square_alone, with_square
 from app.files.typeset import POINT, Face
 from app.maps.features import inner_point
 from app.maps.marks import line_of
@@ -60,7 +60,7 @@ class GroundMap:
     """The content of a map.
 
     swept: the ground that benches sweep; clear: the zone to keep clear around it; width: of that zone [m]
-    gates: name, x and y [m] of each
+    gates: name, x and y [m] of each; colour: of the path, and of the benches among those of other dragons
     """
 
     dance: Dance
@@ -71,6 +71,7 @@ class GroundMap:
     timing: Timing
     geographic: bool
     gates: Sequence[tuple[str, float, float]] = ()
+    colour: str = BLUE
 
     @cached_property
     def line(self) -> Floats:
@@ -125,14 +126,14 @@ def draw_grounds(
 def _draw_paths(drawing: MapDrawing, grounds: Sequence[GroundMap], names: Sequence[str]) -> None:
     """Draw the path of each dragon, in its colour, and gates. names: of the dragons; none for a single one"""
     lines = [drawing.scale.on_paper(ground.line) for ground in grounds]
-    for k, line in enumerate(lines):
-        drawing.line(line, 4.5, 0.9, colour_of(k))
-        draw_arrows(drawing, line, colour_of(k))
+    for ground, line in zip(grounds, lines, strict=True):
+        drawing.line(line, 4.5, 0.9, ground.colour)
+        draw_arrows(drawing, line, ground.colour)
     _draw_gates(drawing, grounds[0])
-    for k, (line, name) in enumerate(zip(lines, names, strict=False)):
+    for ground, line, name in zip(grounds, lines, names, strict=False):
         places = _beside(line, 0.5 * drawing.width(name, NAME_TYPE, bold=True))
-        if not drawing.label(name, NAME_TYPE, places, bold=True, colour=colour_of(k), on_paper=True):
-            drawing.write(name, *places[0], NAME_TYPE, bold=True, colour=colour_of(k), on_paper=True)
+        if not drawing.label(name, NAME_TYPE, places, bold=True, colour=ground.colour, on_paper=True):
+            drawing.write(name, *places[0], NAME_TYPE, bold=True, colour=ground.colour, on_paper=True)
 
 
 def _beside(line: Floats, half: float) -> list[tuple[float, float]]:

@@ -12,7 +12,6 @@ from importlib.resources import files
 import numpy as np
 
 import core
-from app.files.looks import colour_of
 from app.files.typeset import Face, typeset
 from app.plan.drawing import MapDrawing, Scale
 from app.plan.ground import GroundMap, draw_benches, draw_ground, draw_grounds, legend_of, scale_for
@@ -119,8 +118,8 @@ def _together(plans: Sequence[Plan], together: Together) -> Iterator[Json]:
             for part, result in zip(parts, placed, strict=True)
         ]
         drawing = drawn(benches)
-        for k, (outlines, plan) in enumerate(zip(benches, plans, strict=True)):
-            draw_benches(drawing, outlines, plan.names, colour_of(k))
+        for outlines, plan in zip(benches, plans, strict=True):
+            draw_benches(drawing, outlines, plan.names, plan.ground.colour)
         yield _map(first, title, _places(together.clock.words(time)), drawing, True, True)
 
 

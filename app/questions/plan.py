@@ -135,6 +135,7 @@ def plan(request: PlanRequest, terms: Terms) -> bytes:
 
 def _of_several(request: PlanRequest, terms: Terms) -> bytes:
     """The plan of several dragons: all of them on one map, then the sheets of each."""
+    from app.files.looks import colour_of
     from app.plan.plan import Together
     from app.plan.timing import TimeFormat
 
@@ -159,7 +160,8 @@ def _of_several(request: PlanRequest, terms: Terms) -> bytes:
     plans = []
     for k, (part, timing, swept) in enumerate(zip(performance.parts, timings, grounds, strict=True)):
         own_clock = TimeFormat(clock.start_clock, parts[k].music, part.delay)
-        plans.append(common.plan_of(part.dance, timing, swept, own_clock, times, names[k]))
+        colour = colour_of(performance, k)
+        plans.append(common.plan_of(part.dance, timing, swept, own_clock, times, names[k], colour))
     benches = sum(one.dragon.benches for one in dances)
     facts = [
         say("{dance_count} dragons, {benches} benches", dance_count=len(dances), benches=benches),
@@ -212,11 +214,19 @@ class _Common:
         return Title(f"{title}: {name}" if name else title, facts, *self.verdict, self.geographic)
 
     def plan_of(
-        self, dance: Dance, timing: Timing, swept: core.Envelope, clock: TimeFormat, times: str, name: str = ""
+        self,
+        dance: Dance,
+        timing: Timing,
+        swept: core.Envelope,
+        clock: TimeFormat,
+        times: str,
+        name: str = "",
+        colour: str = "",
     ) -> Plan:
-        """The plan of a dragon. times: a note on what they are; name: of the dragon, empty if it is the only one"""
+        """The plan of a dragon. times: a note on what they are; name, colour: of one of several dragons"""
         from app.plan.ground import GroundMap
         from app.plan.plan import Plan
+        from core.plots import BLUE
 
         request = self.request
         span = clock.words(timing.moments[0]), clock.words(timing.moments[-1])
@@ -225,7 +235,7 @@ class _Common:
         clear = widened(swept.polygons, width) if width else swept.polygons
         gates = [(one.name, one.x, one.y) for one in request.gates]
         venue = self.place.venue
-        ground = GroundMap(dance, venue, swept.polygons, clear, width, timing, self.geographic, gates)
+        ground = GroundMap(dance, venue, swept.polygons, clear, width, timing, self.geographic, gates, colour or BLUE)
         numbers = [say("head"), *map(str, range(1, dance.dragon.benches))]
         names = [f"{number} {own}".rstrip() for number, own in zip_longest(numbers, dance.dragon.names, fillvalue="")]
         note = say("times: of the day") if clock.start_clock else times

@@ -206,17 +206,30 @@ class _Judged:
 
     def drawn(self, answer: SafetySheet, terms: Terms) -> bytes:
         """The sheet on paper as PDF. raises: TooMuchWork"""
+        from app.files.looks import colour_of
         from app.files.typeset import face_for
         from app.plan.ground import GroundMap
+        from core.plots import BLUE
 
         request, performance, venue = self.request, self.performance, self.place.venue
         gates = [(one.name, one.x, one.y) for one in (*request.gates, *self.venue_gates)]
         geographic = request.origin_at(self.place) is not None
         grounds = []
-        for (_, part, span), swept in zip(self.dances, self.swept, strict=True):
+        for (k, part, span), swept in zip(self.dances, self.swept, strict=True):
+            colour = colour_of(performance, k) if len(performance.parts) > 1 else BLUE
             timing = timing_of_marks(request, part.dance, (span["start"], span["stop"]), [], terms)
             grounds.append(
-                GroundMap(part.dance, venue, swept.polygons, self.closed, request.spectators, timing, geographic, gates)
+                GroundMap(
+                    part.dance,
+                    venue,
+                    swept.polygons,
+                    self.closed,
+                    request.spectators,
+                    timing,
+                    geographic,
+                    gates,
+                    colour,
+                )
             )
         layers, words = self._layers(answer), self._words(answer)
         areas = [area.name for area in venue.areas] if venue else []

@@ -60,12 +60,14 @@ class PartBody(PathFields, strict=True):
     )  # fmt: skip
 
     colour: str | None = Field(
-        None, pattern="^#[0-9a-f]{6}$", description="Colour of the dragon on the page, such as #b3261e; null: its own"
+        None,
+        pattern="^#[0-9a-f]{6}$",
+        description="Colour of the dragon in pictures, such as #b3261e; null: its turn's",
     )
 
     def to_part(self, benches_max: int) -> Part:
         """raises: TooLarge, InvalidValue"""
-        return Part(self.to_dance(benches_max), self.delay, self.name)
+        return Part(self.to_dance(benches_max), self.delay, self.name, self.colour)
 
 
 class PerformanceFields(Wire, strict=True):

@@ -213,7 +213,7 @@ TWO = json.loads("""{
     "dances": [
         {"name": "Long", "dragon": {"benches": 5, "names": ["Zhou", "Wu", "Zheng", "Wang", "Feng"]},
          "path": {"kind": "waypoints", "points": [[-30, 0], [30, 0]]}},
-        {"name": "North", "delay": 40, "dragon": {"benches": 4},
+        {"name": "North", "colour": "#1a6f33", "delay": 40, "dragon": {"benches": 4},
          "path": {"kind": "waypoints", "points": [[0, -30], [0, 30]]}}
     ],
     "venue": {"type": "Polygon", "coordinates": [[[-35, -35], [35, -35], [35, 35], [-35, 35], [-35, -35]]]},
@@ -238,6 +238,9 @@ def test_the_plan_of_several_shows_all_of_them_and_then_each(several):
     assert "Head and tail at the gates" in sheets[-1]
     assert re.search(r"south gate 10\.0 m 0:50\.0 0:57\.8", " ".join(sheets[first:]))
     assert "times: minutes:seconds, from time 0 of the performance" in sheets[-1]
+    # The second dragon has the colour that was asked for, as on the page.
+    picture = several[0].render(scale=2, rev_byteorder=True).to_numpy()[..., :3]
+    assert (picture == (0x1A, 0x6F, 0x33)).all(axis=-1).any()
 
 
 def test_each_of_several_has_the_sheets_that_it_has_alone(several):
