@@ -16,6 +16,7 @@ import orjson
 import pyarrow as pa
 from pydantic import BaseModel
 
+from app.wire.evidence import Words
 from app.wire.fields import typed_fields
 from core.display import Readable
 
@@ -65,6 +66,8 @@ def _columns_of(kind: Any, steps: tuple[str | int, ...], left_out: frozenset[str
     options = [one for one in get_args(kind) if one is not NoneType]
     if get_origin(kind) in (Union, UnionType) and len(options) == 1:
         yield from _columns_of(options[0], steps, left_out, unit)
+    elif isinstance(kind, type) and issubclass(kind, Words):
+        return  # No request of a sweep asks for words.
     elif isinstance(kind, type) and issubclass(kind, BaseModel | Readable):
         for inner, (annotation, own) in typed_fields(kind).items():
             yield from _columns_of(annotation, (*steps, inner), left_out, own)

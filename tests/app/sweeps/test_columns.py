@@ -24,6 +24,7 @@ def test_what_is_shown_and_what_is_left_out_are_columns(name):
     columns = answer_columns(question.answer)
     names = {column.name for column in columns}
     assert len(names) == len(columns)
+    assert not any("words" in name.split(".") for name in names)
     kept = {column.name for column in answer_columns(question.answer, question.left_out)}
     left_out = {field: [name for name in names if f"{name}.".startswith(f"{field}.")] for field in question.left_out}
     assert all(left_out.values())
