@@ -4,6 +4,7 @@ import { $ } from "./elements.js";
 import { Jobs } from "./jobs.js";
 import { SweepMap } from "./map.js";
 import { QUESTIONS, SweepForm } from "./sweeps.js";
+import { language, learn } from "./text.js";
 
 export class Designs {
   /** The spec behind the map; null if another browser asked for it. */
@@ -17,12 +18,14 @@ export class Designs {
   constructor(state, service, names) {
     this.state = state;
     this.names = names;
+    this.service = service;
     this.map = new SweepMap($("#map"), (over, row) => this.#open(over, row));
     this.jobs = new Jobs($("#jobs"), service, (columns, spec) => this.#show(columns, spec));
     new SweepForm($("#sweep"), state, (spec) => this.jobs.start(spec));
   }
 
-  #show(columns, spec) {
+  async #show(columns, spec) {
+    await learn(this.service, language(), "columns");
     this.#spec = spec ?? null;
     this.map.show(columns, QUESTIONS[spec?.question]?.value, QUESTIONS[spec?.question]?.named);
   }

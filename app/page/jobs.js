@@ -116,7 +116,7 @@ export class Jobs {
   async #open(id, job) {
     job.opened = true;
     try {
-      this.show(await this.service.ask("map", `jobs/${id}/result`), job.spec);
+      await this.show(await this.service.ask("map", `jobs/${id}/result`), job.spec);
       const forms = resultOf(job.status).type === TABLE ? Object.keys(TABLES) : [];
       $("#map-save").parentElement.hidden = !forms.length;
       $("#map-save").replaceChildren(...forms.map((form) => button({ textContent: form, "data-save": form }, () => this.#save(id, form))));

@@ -28,7 +28,8 @@ export const teach = (lang, texts) => (CATALOGUES[lang] = { ...CATALOGUES[lang],
  */
 export function learn(service, lang, part) {
   PARTS.add(part);
-  const names = lang === "en" ? [] : [...PARTS].map((one) => `words/${lang}-${one}.json`);
+  // English stands in the scripts, but for the labels of columns.
+  const names = [...PARTS].filter((one) => lang !== "en" || one === "columns").map((one) => `words/${lang}-${one}.json`);
   const missing = names.filter((name) => loads.get(name) !== null);
   for (const name of missing)
     if (!loads.has(name)) loads.set(name, service.ask(name, new URL(`./${name}`, import.meta.url).href).then((texts) => teach(lang, texts) && loads.set(name, null)));

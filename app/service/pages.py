@@ -14,7 +14,7 @@ import os
 import re
 from base64 import b64encode
 from collections.abc import Iterable, Iterator, Mapping
-from functools import lru_cache
+from functools import cache, lru_cache
 from importlib.resources import files
 from mimetypes import guess_type
 from pathlib import Path
@@ -31,6 +31,7 @@ from starlette.types import Scope
 
 from app.service.negotiation import GZIPPED, accepted, tags_in
 from app.service.problems import CLOSE, Refused
+from app.wire.labels import labels_of
 from app.wire.problem import PROBLEM_TYPE
 from app.wire.question import JSON
 from core.language import COMPILED, ROOM, Language, catalogues, phrase, say, sense, speaking
@@ -72,8 +73,9 @@ IMPORT = re.compile(r'^(?:import|export) .*?"(\.{1,2}/[\w./-]+\.js)";$', re.MULT
 # In its HTML: an element whose text is a sentence, and a label.
 TEXT_MARK = re.compile(r"(<[^<>]*\bdata-text)(?=[\s>])([^<>]*>)([^<>]+)(?=</)")
 LABEL_MARK = re.compile(r'\bdata-label="([^"]+)"')
-# Texts of a language for the page: those of its first view, of the parts that load later, of "How it works".
-CATALOGUE = re.compile(r"words/(\w+)-(first|more|how)\.json")
+# Texts of a language for the page: those of its first view, of the parts that load later, of "How it works"; and the
+# labels of the columns of sweeps, in English too.
+CATALOGUE = re.compile(r"words/(\w+)-(first|more|how|columns)\.json")
 # For files whose address changes with their content: a year, the longest time that caches heed.
 KEPT = "public, max-age=31536000, immutable"
 # Pages whose addresses a person follows: a too long one is answered in sentences, by its language.
@@ -210,6 +212,8 @@ class Page(Files):
 
     def content(self, path: str) -> tuple[bytes, str]:
         part = CATALOGUE.fullmatch(path)
+        if part and part[2] == "columns" and part[1] in list(Language):
+            return _columns(part[1]), JSON
         if part and part[1] in catalogues():
             return _texts(self, part[1], part[2], self.edition()), JSON
         return super().content(path)
@@ -254,6 +258,16 @@ def _texts(page: Page, language: str, part: str, edition: str) -> bytes:
             if text
         ]
     return orjson.dumps({f"{meaning}\4{text}".lstrip("\4"): words for meaning, text, words in said if words != text})
+
+
+@cache
+def _columns(language: str) -> bytes:
+    """The labels of the columns in tables of sweeps, as texts of the page."""
+    from app.sweeps.questions import QUESTIONS  # No other file of the page needs it.
+
+    with speaking(language):
+        labels = labels_of(form.answer for forms in QUESTIONS.values() for form in forms)
+    return orjson.dumps({f"column\4{name}": words for name, words in labels.items()})
 
 
 @lru_cache(8)

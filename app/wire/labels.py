@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import Enum
-from typing import Any
+from typing import Any, get_args
 
 from pydantic import BaseModel
 
@@ -18,9 +18,9 @@ from core.plots import feature_words
 
 # Labels of fields, where they are not the words of their names, or no answer of a question has them.
 LABELS: Phrases = {
-    "cells": "cells", "dances": "dances", "distance": "distance", "dragon": "dragon", "envelope": "envelope",
-    "excess": "excess", "heads": "heads", "separation": "separation", "touching": "shown to touch",
-    "witness_a": "witness a", "witness_b": "witness b",
+    "at_least": "proven least", "cells": "cells", "dances": "dances", "distance": "distance", "dragon": "dragon",
+    "envelope": "envelope", "excess": "excess", "heads": "heads", "separation": "separation",
+    "touching": "shown to touch", "witness_a": "witness a", "witness_b": "witness b",
 }  # fmt: skip
 # Words of codes, where they are not those of the code, or no answer that is shown as it is has the code.
 VALUES: Phrases = {
@@ -73,6 +73,23 @@ def label(name: str, unit: str = "") -> str:
     """Label of a field of an answer, such as "time bracket" for time_bracket; with a unit, as the head of a column."""
     words = say(LABELS.get(name, name.replace("_", " ")))
     return f"{words} [{unit}]" if unit else words
+
+
+def kinds_in(kinds: Iterable[Any]) -> list[Any]:
+    """These types of answers, and the types of all that stands in them and is shown."""
+    found = list(kinds)
+    for kind in found:  # which grows
+        inner = list(get_args(kind))
+        if isinstance(kind, type) and issubclass(kind, BaseModel | Readable) and kind not in PARTS:
+            inner = [type_ for name, (type_, _) in typed_fields(kind).items() if name not in UNSHOWN]
+        found += [one for one in inner if one not in found]
+    return found
+
+
+def labels_of(kinds: Iterable[Any]) -> dict[str, str]:
+    """Labels with units of the fields of answers, and of all that stands in them, by their names."""
+    models = (kind for kind in kinds_in(kinds) if isinstance(kind, type) and issubclass(kind, BaseModel | Readable))
+    return {name: label(name, unit) for kind in models for name, (_, unit) in typed_fields(kind).items()}
 
 
 def value_word(code: str, margin: float = 0.0) -> str:
