@@ -24,7 +24,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from core.contact.march import TOUCHES
+from core.contact.brackets import TOUCHES
 from core.contact.search import MARGIN_MAX, WORK_BUDGET
 from core.contact.stage import Player, Stage
 from core.contact.stage_march import EncounterMarch, Met

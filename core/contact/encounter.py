@@ -10,8 +10,8 @@ from __future__ import annotations
 from core import kernels
 from core.claims.claim import PARTS_LISTED, ClaimKind, DanceSummary, EncounterClaim, PartSummary
 from core.contact.answer import CORNERS, EDGES, OUTCOMES, Feature, Outcome
+from core.contact.brackets import TOUCHES
 from core.contact.encounter_answer import EncounterEvidence, FirstEncounter, NearPass
-from core.contact.march import TOUCHES
 from core.contact.search import MARGIN_MAX, WORK_BUDGET
 from core.contact.stage import PROBED, Stage
 from core.contact.stage_march import EncounterMarch, Met, beyond, to_fold

@@ -18,9 +18,9 @@ from core import kernels
 from core.claims.claim import BenchBetween, ClaimKind, ContactClaim, DanceSummary
 from core.contact.answer import CORNERS, EDGES, OUTCOMES, Evidence, Feature, FirstContact, Graze, Outcome
 from core.contact.between import holds_apart
+from core.contact.brackets import TOUCHES
 from core.contact.encounter import first_encounter
 from core.contact.fold import approach_fold
-from core.contact.march import TOUCHES
 from core.contact.near_graze import narrow_bracket
 from core.contact.search import MARGIN_MAX, ContactSearch
 from core.contact.stretch import Stretch, overlap_beyond

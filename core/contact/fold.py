@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from core import kernels
-from core.contact.march import TOUCHES
+from core.contact.brackets import TOUCHES
 from core.contact.search import Approached, ContactSearch, joined
 from core.dance import RunEnd
 from core.kernels import Ended

@@ -12,8 +12,8 @@ from collections.abc import Callable
 import numpy as np
 
 from core import kernels
+from core.contact.brackets import BRACKET, BRACKET_MIN, BRACKETS_GRAZING, FOLD_SLIVER, FOLD_WAYS, TRAVEL_ROUNDING
 from core.contact.coils import clear_places
-from core.contact.march import BRACKET, BRACKET_MIN, BRACKETS_GRAZING, FOLD_SLIVER, FOLD_WAYS, TRAVEL_ROUNDING
 from core.dance import RunEnd
 from core.dragon import Dragon
 from core.kernels import Budget, Ended

@@ -8,8 +8,8 @@ from itertools import combinations, pairwise
 import numpy as np
 
 from core import kernels
+from core.contact.brackets import FOLD_SLIVER, TRAVEL_ROUNDING
 from core.contact.gaps import PROFILE_STEP, sample_count
-from core.contact.march import FOLD_SLIVER, TRAVEL_ROUNDING
 from core.contact.search import NEAR_WORK_BUDGET, ContactSearch
 from core.dance import NEAR_FOLD
 from core.dragon import Dragon

@@ -27,8 +27,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from core.contact.brackets import FOLD_WAYS
 from core.contact.fold import THETA_ROUNDING, moved_until
-from core.contact.march import FOLD_WAYS
 from core.contact.stage import AFTER, BEFORE, PROBED, WIDTH_ROUNDING, Stage
 from core.kernels import Ended
 from core.kernels.constants import CORNER_SPEED, FREE, NO_BOUND

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from core.contact.brackets import TOUCHES
 from core.contact.fold import least_to_fold
 from core.contact.gaps import PROFILE_STEP, Pair, least_over, moments_of, sample_count
-from core.contact.march import TOUCHES
 from core.contact.search import ContactSearch
 from core.kernels import EDGES_PER_WORK, NO_BRACKET, Ended
 from core.kernels.results import Dip, Marched

@@ -9,9 +9,9 @@ import numpy as np
 
 from core import kernels
 from core.contact.answer import Outcome
+from core.contact.brackets import TOUCHES
 from core.contact.fold import clear_to_fold
 from core.contact.gaps import Pair
-from core.contact.march import TOUCHES
 from core.contact.near_graze import narrow_bracket
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, ContactSearch, before_fold
 from core.contact.stretch import Stretch, least_on, overlap_beyond

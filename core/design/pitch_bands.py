@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from core import kernels
-from core.contact.march import TRAVEL_ROUNDING
+from core.contact.brackets import TRAVEL_ROUNDING
 from core.contact.search import ContactSearch
 from core.design.spread import Spread
 from core.design.straight import Straight

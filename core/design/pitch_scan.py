@@ -120,7 +120,7 @@ class Stops:
         """The radius [m], None if nothing touches. raises: InvalidValue as Dance
 
         Its error is at most RADIUS_WIDTH. Near a graze, where rounding hides the beginning of the contact, the bracket
-        is wider (BRACKETS_GRAZING in core/contact/march.py). A search is undecided if a graze is too close to the
+        is wider (BRACKETS_GRAZING in core/contact/brackets.py). A search is undecided if a graze is too close to the
         margin; then the radius is that of the graze.
         """
         end = Dance(self.dragon, path).end

@@ -7,7 +7,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from core.contact.march import TOUCHES
+from core.contact.brackets import TOUCHES
 from core.contact.search import ContactSearch
 from core.design.pitch_bands import BORDER_WIDTH, Descent
 from core.design.straight import Straight, too_near

@@ -21,9 +21,9 @@ from functools import cached_property, partial
 from typing import Protocol, TypeVar
 
 from core.contact.between import held_apart
+from core.contact.brackets import TOUCHES
 from core.contact.fold import clear_to_fold
 from core.contact.gaps import Gaps, refined, sampled, sampled_again, sampled_least
-from core.contact.march import TOUCHES
 from core.contact.search import ContactSearch
 from core.contact.stretch import Stretch
 from core.dance import Dance

@@ -5,7 +5,7 @@ import pytest
 from flint import arb
 
 from core import Dragon, Spiral
-from core.contact.march import TRAVEL_ROUNDING
+from core.contact.brackets import TRAVEL_ROUNDING
 from core.contact.search import ContactSearch
 from tests.support.exact_chain import spiral_place
 

@@ -1,4 +1,4 @@
-"""A march: the width of its bracket, the error of its travels, and its last part before a fold."""
+"""Widths of brackets, the error of travels, and the last part before a fold, as every march has them."""
 
 from __future__ import annotations
 
