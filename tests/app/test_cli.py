@@ -202,11 +202,8 @@ def test_an_address_of_a_scheduler_is_a_setting(address, monkeypatch):
     assert Settings().dask == address
 
 
-def test_output_takes_decimals_and_language(tmp_path):
-    text = tmp_path / "a.csv"
+def test_a_file_is_in_the_language_that_is_asked_for(tmp_path):
     book = tmp_path / "a.xlsx"
-    run("trajectory", "--stop", "1", "--decimals", "3", "--output", str(text))
-    assert "0.0,1,8.364,2.827," in text.read_text()
     run("trajectory", "--stop", "1", "--language", "zh", "--output", str(book))
     assert openpyxl.load_workbook(book)["位置"]["A2"].value == "龙头x (m)"
 

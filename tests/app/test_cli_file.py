@@ -100,6 +100,7 @@ VILLAGE = read_dance(ROOT / "examples" / "village_square.toml")
 FILES = [
     *((TIMED, f"trajectory two.{ending} -> trajectory") for ending in ("csv", "arrow", "xlsx", "json")),
     *((BODY | {"times": [6, 9]}, f"trajectory one.{ending} -> trajectory") for ending in ("csv", "arrow", "xlsx")),
+    (BODY, 'trajectory one.csv --times 6,9 --decimals 3 -> trajectory {"times": [6, 9], "decimals": 3}'),
     (TWO, 'film two.gif --seconds 0.2 --rate 10 --height 90 -> films {"seconds": 0.2, "rate": 10, "height": 90}'),
     (TWO, "maps two.geojson -> maps.geojson"),
     (TWO, "maps two.dxf -> maps.dxf"),

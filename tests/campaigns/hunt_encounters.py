@@ -1,4 +1,4 @@
-"""First encounters in random performances against a slow search that shares no code with them.
+"""First encounters and least clearances in random performances against a slow search that shares no code with them.
 
 `python -m tests.campaigns.hunt_encounters SEED SECONDS`. Two to five small dragons wind into spirals, some into the
 same one, go through arcs and along lines that cross, with speeds, passages, pauses and delays of their own. Half of the
@@ -21,15 +21,19 @@ from core import (
     Spiral,
     encounter_check,
     first_encounter,
+    least_clearance,
 )
+from core.contact.gaps import PROOF_WIDTHS
 from tests.campaigns import hunting
-from tests.campaigns.hunt_contacts import SlowLook, random_dragon, random_margin, random_passages
+from tests.campaigns.hunt_contacts import GAP, SlowLook, random_dragon, random_margin, random_passages
 from tests.campaigns.hunt_contacts import meeting_fault as encounter_fault
 from tests.support.slow_performance import SlowPerformance
 from tests.support.slow_search import RUN
 
 # Width of a bracket as promised where benches do not meet slowly [s].
 NARROW = 1e-9
+# Accuracy of the least of a slow look, which refines its lowest samples [m].
+LEAST = 1e-7
 # Performances that are drawn until no two dragons overlap at the beginning [1].
 TRIALS = 6
 # Longest time that is looked at [s].
@@ -102,7 +106,7 @@ def random_case(seed, case):
 def judged(performance, margin, start, stop, look):
     """The kind of a first encounter, and its fault in words."""
     met = first_encounter(performance, margin=margin, start=start, stop=stop)
-    wrong = encounter_fault(met, margin, look)
+    wrong = encounter_fault(met, margin, look) or least_fault(performance, start, stop, look)
     kind = met.outcome.value
     if met.outcome is Outcome.CONTACT:
         low, high = met.time_bracket
@@ -111,6 +115,21 @@ def judged(performance, margin, start, stop, look):
         if not wrong and high - low < 1.01 * NARROW and not encounter_check(met).agree:
             kind += ", engines differ"
     return kind, wrong and f"{wrong} in {performance.parts!r}, margin {margin!r}, {start} to {stop}"
+
+
+def least_fault(performance, start, stop, look):
+    """What is wrong with the least clearance."""
+    low, there = look.least()
+    least = least_clearance(performance, start=start, stop=stop)
+    gap = look.at(least.time)
+    if low <= LEAST:
+        is_fine = least.distance <= 0.0 and gap <= GAP
+    else:
+        # Up to a fold the bound is wider.
+        width = PROOF_WIDTHS[1] * 1.01 if performance.end.dragon is None else np.inf
+        proven = least.at_least <= low + GAP and 0.0 < least.distance - least.at_least <= width
+        is_fine = proven and least.distance <= low + LEAST and abs(gap - least.distance) <= GAP
+    return "" if is_fine else f"{least!r}, but the gap is {low} at {there} s"
 
 
 fault = partial(hunting.unless_refused, judged, random_case)
