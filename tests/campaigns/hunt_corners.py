@@ -12,7 +12,9 @@ from tests.campaigns import hunt_contacts, hunting
 from tests.support.slow_route import SlowLines
 
 # Accuracy of places [m], and of speeds from differences of them over SHORT [m/s] at 1 m/s.
-PLACE, SPEED, SHORT = 1e-9, 1e-3, 1e-7
+PLACE = 1e-9
+SPEED = 1e-3
+SHORT = 1e-7
 # Instants at which handles are compared [1].
 INSTANTS = 200
 
@@ -21,7 +23,8 @@ def cornered_route(rng, dragon):
     """A line, two to seven corners, and a line, the outer ones as long as the dragon."""
     chord = float(dragon.chords.max())
     way = float(sum(dragon.chords) + rng.uniform(1.0, 6.0) * chord)
-    corners, side = int(rng.integers(2, 8)), float(rng.choice([-1.0, 1.0]))
+    corners = int(rng.integers(2, 8))
+    side = float(rng.choice([-1.0, 1.0]))
     sides = np.where(rng.uniform(size=corners) < 0.2, -side, side)
     headings = np.cumsum([0.0, *(sides * rng.uniform(0.2, 1.46, corners))])
     lengths = [way, *(chord * 10.0 ** rng.uniform(-0.7, 0.6, corners - 1)), way]

@@ -126,7 +126,8 @@ class SlowLines(SlowRoute):
 
     def behind(self, s, leaders, chord):
         """Arc lengths and points of the handles a chord behind leaders at s: the first point of a line so far."""
-        best, points = np.full(s.size, -np.inf), np.empty(s.size, complex)
+        best = np.full(s.size, -np.inf)
+        points = np.empty(s.size, complex)
         joints = np.cumsum([-self.start, *map(piece_length, self.pieces)])
         for k, piece in enumerate(self.pieces):
             first, heading, _, _, length = clothoid_of(piece)

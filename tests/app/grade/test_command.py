@@ -64,7 +64,8 @@ def test_a_folder_is_graded_by_path_with_exit_code_0(class_of_three, tmp_path):
 
 
 def test_a_class_has_the_points_of_a_rubric_and_equal_files_are_pointed_out(class_of_three, tmp_path):
-    copy, rubric = class_of_three / "zhou" / "mine.xlsx", tmp_path / "rubric.csv"
+    copy = class_of_three / "zhou" / "mine.xlsx"
+    rubric = tmp_path / "rubric.csv"
     copy.parent.mkdir()
     copy.write_bytes((class_of_three / "wang" / "result2.xlsx").read_bytes())
     rubric.write_text("what,points\nresult2,55\n", encoding="utf-8")

@@ -12,6 +12,7 @@ from app.files.addresses import short_form
 from app.questions.plan import PDF_TYPE
 from core import bench_outlines, trajectory
 from tests.support.asking import box, line, polygon
+from tests.support.near import assert_near
 from tests.support.paper import pages_of, shapes_of, sheets_of, words_of
 from tests.support.shared_dances import CROSSING, STREET
 
@@ -74,7 +75,7 @@ def test_ground_lanes_gates_speed_and_stop_are_those_of_small_steps(ask):
     crossed, beside, over = answer["lanes"]
     inside = (shapely.distance(outlines, shapely.box(28, -8, 32, 8)) <= 0.0).any(axis=1)
     assert crossed["free_width"] == 0.0
-    assert crossed["total"] == pytest.approx(inside.sum() * STEP, abs=0.3)  # people may stray, forwards too
+    assert_near(crossed["total"], inside.sum() * STEP, 0.3)  # people may stray, forwards too
     (stay,) = crossed["stays"]
     assert stay["begin"] <= times[inside].min()
     assert stay["end"] >= times[inside].max()
@@ -87,9 +88,9 @@ def test_ground_lanes_gates_speed_and_stop_are_those_of_small_steps(ask):
     assert 2.0 - 0.15 - 0.1 < over["free_width"] < 2.0 - 0.15 - 0.05
     (gate,) = answer["gates"]
     passed = [times[np.argmax(motion.position[:, k, 0] >= 50.0)] for k in (0, -1)]
-    assert (gate["head"], gate["lasts"]) == pytest.approx((passed[0], 2.86 + 4 * 1.65), abs=0.02)
+    assert_near((gate["head"], gate["lasts"]), (passed[0], 2.86 + 4 * 1.65), 0.02)
     assert answer["fastest"]["speed"] == pytest.approx(motion.speed.max())
-    assert answer["stopping"]["distance"] == pytest.approx(1.5 * motion.speed.max(), abs=1e-6)
+    assert_near(answer["stopping"]["distance"], 1.5 * motion.speed.max(), 1e-6)
 
 
 def test_lanes_and_gates_of_the_venue_are_those_of_the_request(ask):
@@ -156,9 +157,7 @@ def test_several_dragons_have_one_sheet_whose_numbers_are_those_of_small_steps_o
     # The least gap of the two, and to the obstacle.
     gaps = np.array([shapely.distance(blue[:, [a]], red) for a in range(5)])
     between, own, other, tree, _ = answer["approaches"]
-    assert (between["distance"], between["time"]) == pytest.approx(
-        (gaps.min(), times[gaps.min(axis=(0, 2)).argmin()]), abs=0.01
-    )
+    assert_near((between["distance"], between["time"]), (gaps.min(), times[gaps.min(axis=(0, 2)).argmin()]), 0.01)
     assert [(one["distance"], one["dragons"]) for one in (own, other)] == [
         (pytest.approx(1.1), [0, 0]), (pytest.approx(1.1), [1, 1])
     ]  # fmt: skip
@@ -174,7 +173,7 @@ def test_several_dragons_have_one_sheet_whose_numbers_are_those_of_small_steps_o
     (stay,) = lane["stays"]
     assert stay["dragon"] == 1
     assert stay["end"] == answer["stop"]
-    assert lane["total"] == pytest.approx(inside.sum() * STEP, abs=0.02)
+    assert_near(lane["total"], inside.sum() * STEP, 0.02)
     (gate,) = answer["gates"]
     passed = times[np.argmax(motions[1].position[:, 0, 1] >= 30.0)]
     assert (gate["dragon"], gate["head"], gate["lasts"]) == (
@@ -184,7 +183,7 @@ def test_several_dragons_have_one_sheet_whose_numbers_are_those_of_small_steps_o
     )
     assert answer["fastest"]["dragon"] == 1
     assert answer["fastest"]["speed"] == pytest.approx(1.1)
-    assert answer["stopping"]["distance"] == pytest.approx(1.5 * 1.1, abs=1e-5)
+    assert_near(answer["stopping"]["distance"], 1.5 * 1.1, 1e-5)
 
 
 def test_the_sheet_of_several_dragons_names_them_and_says_when_two_meet(ask):
@@ -265,7 +264,7 @@ def test_the_page_has_its_words_in_order_a_map_to_scale_and_a_code_that_a_phone_
 @pytest.mark.parametrize("paper, size", [("A4", (210, 297)), ("A3", (297, 420))])
 def test_the_scale_on_the_sheet_is_true_to_two_tenths_of_a_millimetre(ask, paper, size):
     (page,) = pages_of(ask.file("safety-sheet", BODY | {"paper": paper}, PDF_TYPE))
-    assert page.get_size() == pytest.approx([side * 72 / 25.4 for side in size], abs=0.01)
+    assert_near(page.get_size(), [side * 72 / 25.4 for side in size], 0.01)
     scale = int(re.search(r"1:(\d+) ", words_of(page))[1])
     # The obstacle of 2 m by 2 m and the square of 70 m by 16 m; bounds hold the line around a shape twice.
     boxes = np.array(shapes_of(page)) * 25.4 / 72.0

@@ -14,6 +14,7 @@ from app.sweeps.questions import NO_ROWS, QUESTIONS, TrajectoryRow, question_of
 from app.sweeps.shards import OtherVersion, ShardPiece, checked_part, part_name, write_part
 from app.sweeps.spec import Spec
 from tests.support.asking import dance
+from tests.support.near import assert_near
 from tests.support.odd_questions import LAND
 from tests.support.refused import refused
 from tests.support.sweeping import answered, spec_of
@@ -109,7 +110,7 @@ def test_the_row_of_a_table_is_what_the_table_says():
     benches = [BENCH, BENCH | {"y": 9.0}, BENCH | {"x": 0.2, "y": 0.1}]
     row, alone = (rows("overlaps", {"benches": benches[:count]}, {"margin": [0.0]})[0] for count in (3, 1))
     assert (row["pairs"], row["benches.0"], row["benches.1"], row["agree"]) == (1, 0, 2, True)
-    assert row["separation"] == pytest.approx(-0.2, abs=1e-12)
+    assert_near(row["separation"], -0.2, 1e-12)
     assert alone["separation"] is None
 
 

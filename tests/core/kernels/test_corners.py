@@ -22,7 +22,8 @@ def bounded(s, h):
 
 
 def test_points_of_benches_stay_within_the_bound_of_their_second_derivative_and_speed_across_corners():
-    rng, known = np.random.default_rng(69), 0
+    rng = np.random.default_rng(69)
+    known = 0
     for s, h in zip(rng.uniform(7.0, 24.0, 300), 10.0 ** rng.uniform(-4.0, -0.8, 300), strict=True):
         motion = bounded(s, h)
         if motion is None:

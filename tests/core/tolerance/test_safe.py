@@ -10,6 +10,7 @@ from core.tolerance.tolerance import Limit
 from tests.campaigns.adversaries import to_circle
 from tests.core.test_breaches import BEND
 from tests.core.tolerance.test_tolerance import BRACKET
+from tests.support.near import assert_near
 
 # pitch [m], a bound by hand and a contact found by hand [m], both sampled in time and rounded to 1e-5.
 KNOWN = [(0.5, 0.02321, 0.02325), (0.55, 0.04654, 0.04668), (0.7, 0.11662, 0.11749), (1.0, 0.24298, 0.26305)]
@@ -35,7 +36,7 @@ def test_brackets_lie_between_the_bounds_and_the_contacts_known(pitch, bound, co
 def test_where_benches_touch_as_they_are_nothing_is_called_safe(dance, stop, benches):
     result = tolerance(dance, stop=stop)
     assert result.stray == 0.0
-    assert result.time == pytest.approx(first_contact(dance).time, abs=1e-6)
+    assert_near(result.time, first_contact(dance).time, 1e-6)
     assert benches in (None, result.benches)
     assert benches is None or result.stray_bracket[1] < 1e-6
     assert result.certificate.claim.touches
