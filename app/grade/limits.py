@@ -20,6 +20,8 @@ from core.language import Listed
 # that in every shorter turn an arc is tighter than that, or benches overlap; a test recomputes it. core.shortest_turn
 # with a free ratio, whose bends are wider by the rounding that a proof needs, proves 8.223983 m.
 WIDER_LENGTH = 8.2147138
+# The shortest one that keeps to these wider bends, by its ratio, entry and exit [m].
+EQUAL_TURN = (1.0, 4.5, 3.93378849)
 # The shortest turn known, by its ratio, entry and exit [m]; its length, rounded up [m]. Its first arc has 0.951 m of
 # radius, but every bench is proven to follow, and nothing touches. A search found it on 2026-11-30: a shorter one may
 # exist. With its ratio and exit, entries up to the circle give all lengths above it (12 of them danced, 2026-11-30).

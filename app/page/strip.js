@@ -12,6 +12,9 @@ import { language, say } from "./text.js";
 const QUESTIONS = [1, 2, 3, 4, 5];
 /** Size of a picture, its margin, and the radius of a point [px]. */
 const [WIDTH, HEIGHT, MARGIN, DOT] = [240, 150, 8, 4];
+/** Rows up and columns to the right by the key, and the ratio of the contest's turn. */
+const STEPS = { ArrowUp: [1, 0], ArrowDown: [-1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] };
+const RATIO = 2;
 const SVG = "http://www.w3.org/2000/svg";
 /** What is handed in for a question that has no workbook. */
 const FORM = ".xlsx,.xlsm,.xls,.csv";
@@ -39,23 +42,43 @@ function drawn({ words, equal, strokes }) {
   return make("figure", {}, picture, make("figcaption", { textContent: words }));
 }
 
-/** The map of turns: a touch on a cell takes its turn. take(ratio, entry): of that cell */
+/** The map of turns: a touch on a cell takes its turn, arrow keys move a marker and Enter takes it. take(ratio, entry): of that cell */
 function mapOf({ words, ratios, entry_radii: entries, lengths }, take) {
   const every = lengths.flat().filter((length) => length !== null);
   const [least, most] = [Math.min(...every), Math.max(...every)];
   const [wide, high] = [WIDTH / ratios.length, HEIGHT / entries.length];
-  const map = shape("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": words, class: "turns" });
-  for (const [row, entry] of entries.entries())
-    for (const [column, ratio] of ratios.entries()) {
-      const length = lengths[row][column];
-      const cell = shape("rect", { x: column * wide, y: HEIGHT - (row + 1) * high, width: wide - 1, height: high - 1, class: length === null ? "tight" : "turn", "fill-opacity": length === null ? 1 : 0.25 + (0.75 * (length - least)) / (most - least) });
-      const title = shape("title", {});
-      title.textContent = `${ratio} : 1, ${entry} m${length === null ? "" : `: ${length.toFixed(3)} m`}`;
-      cell.append(title);
-      if (length !== null) cell.addEventListener("click", () => take(ratio, entry));
-      map.append(cell);
-    }
-  return make("figure", {}, map, make("figcaption", { textContent: words }));
+  const map = shape("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "application", "aria-label": words, tabindex: 0, class: "turns" });
+  const told = make("output", {});
+  // The contest's turn is on the circle, in the uppermost row.
+  let [row, column] = [entries.length - 1, ratios.indexOf(RATIO)];
+  const cells = lengths.map((line, k) =>
+    line.map((length, j) => {
+      const cell = shape("rect", { x: j * wide, y: HEIGHT - (k + 1) * high, width: wide - 1, height: high - 1, class: length === null ? "tight" : "turn", "fill-opacity": length === null ? 1 : 0.25 + (0.75 * (length - least)) / (most - least) });
+      cell.addEventListener("click", () => choose(k, j));
+      return cell;
+    }),
+  );
+  map.append(...cells.flat());
+  const mark = (k, j) => {
+    cells[row][column].classList.remove("marked");
+    [row, column] = [Math.min(Math.max(k, 0), entries.length - 1), Math.min(Math.max(j, 0), ratios.length - 1)];
+    cells[row][column].classList.add("marked");
+    const length = lengths[row][column];
+    told.textContent = `${ratios[column]} : 1, ${entries[row]} m: ${length === null ? say("too tight") : `${length.toFixed(3)} m`}`;
+  };
+  const choose = (k, j) => {
+    mark(k, j);
+    if (lengths[k][j] !== null) take(ratios[j], entries[k]);
+  };
+  map.addEventListener("keydown", (event) => {
+    const step = STEPS[event.key];
+    if (step) mark(row + step[0], column + step[1]);
+    else if (event.key === "Enter") choose(row, column);
+    else return;
+    event.preventDefault();
+  });
+  mark(row, column);
+  return make("figure", {}, map, told, make("figcaption", { textContent: words }));
 }
 
 const paragraph = (textContent) => make("p", { textContent });

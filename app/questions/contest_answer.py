@@ -12,11 +12,12 @@ from pydantic import Field
 import core
 from app.contest import pictures
 from app.contest.pictures import Picture
-from app.contest.solved import EVEN, ContestRequest
+from app.contest.solved import ContestRequest
+from app.grade.limits import EQUAL_TURN, TIGHTER_TURN, WIDER_LENGTH
 from app.wire.answers import SENTENCES
 from app.wire.fields import Answer, Whole, Wire, measure
 from app.wire.question import Question, Terms
-from app.wire.readings import contact_words, handles_words, limit_words, pitch_words, turn_words
+from app.wire.readings import contact_words, handles_words, pitch_words, turn_words
 from core import Dance, Dragon, InvalidValue, Outcome
 from core.errors import format_bound, format_number
 from core.language import phrase, say
@@ -189,7 +190,8 @@ def _turn(dragon: Dragon, terms: Terms) -> ContestAnswer:
         ),
         say(
             "A turn is shorter if it may begin or end inside the circle, until a bend is too tight for the longest "
-            "bench: its radius must be at least half of the distance of its two handles, {least:.3f} m.",
+            "bench: it surely follows where the radius is at least half of the distance of its two handles, "
+            "{least:.3f} m.",
             least=0.5 * float(dragon.chords.max()),
         ),
     ]
@@ -214,21 +216,34 @@ def _turn_offer(words: str, turn: core.Turn) -> Offer:
 def _shorter(dragon: Dragon, terms: Terms) -> ContestAnswer:
     """Question 4 with the shortest turns of its ratio and of equal arcs."""
     answer, circle = _turn(dragon, terms), (PROBLEM.turn_pitch, PROBLEM.turning_radius)
-    for template, shortest in (
+    same = core.shortest_turn(dragon, *circle, PROBLEM.ratio, budget=terms.budget)
+    equal, tight = (
+        core.Turn(*circle, ratio, entry_radius=entry, exit_radius=leaving)
+        for ratio, entry, leaving in (EQUAL_TURN, TIGHTER_TURN)
+    )
+    least = 0.5 * float(dragon.chords.max())
+    bends = {"wide": equal.radii[0], "least": least, "shortest": WIDER_LENGTH}
+    for turn, template in (
+        (same.turn, phrase("The shortest one with the same ratio, {ratio:g}, is {length:.6f} m long.")),
         (
-            phrase("The shortest one with the same ratio, {ratio:g}, is {length:.6f} m long."),
-            core.shortest_turn(dragon, *circle, PROBLEM.ratio, budget=terms.budget),
+            equal,
+            phrase(
+                "With equal arcs it is {length:.6f} m long, and it is proven that no turn of any ratio is 1e-6 m "
+                "shorter whose bends have radii of at least {wide:.4f} m. Where {least:.3f} m, half of that distance, "
+                "are enough, none is shorter than {shortest:.4f} m."
+            ),
         ),
         (
-            phrase("With two equal arcs, leaving opposite to where it enters, it is {length:.6f} m long."),
-            core.deepest_turn(dragon, *circle, EVEN, budget=terms.budget),
+            tight,
+            phrase(
+                "An arc may even be tighter, as long as every bench can follow: with a ratio of {ratio:.6f} and a "
+                "first arc of {radius:.3f} m, {length:.6f} m are danced and nothing touches. A shorter one may exist."
+            ),
         ),
     ):
-        turn = shortest.turn
         answer.sentences += [
-            say(template, ratio=turn.ratio, length=turn.length),
+            say(template, ratio=turn.ratio, length=turn.length, radius=turn.radii[0], **bends),
             turn_words(turn),
-            limit_words(shortest.limited_by, 0.0, 0.0),
         ]
         answer.offers.append(_turn_offer(say("Dance the turn of {length:.2f} m", length=turn.length), turn))
     answer.more, answer.turns = None, _lengths(dragon, terms)
@@ -250,7 +265,10 @@ def _lengths(dragon: Dragon, terms: Terms) -> TurnLengths:
     for ((row, column), dance), contact in zip(danced.items(), contacts, strict=True):
         if contact.outcome is Outcome.CLEAR and isinstance(dance.path, core.Turn):
             lengths[row][column] = dance.path.length
-    words = say("Length of the turn by the ratio, to the right, and the entry, upwards; grey: too tight. Touch one.")
+    words = say(
+        "Length of the turn by the ratio, to the right, and the entry, upwards; grey: too tight. Touch one, or use "
+        "the arrow keys and Enter."
+    )
     return TurnLengths(words=words, ratios=ratios.tolist(), entry_radii=entries.tolist(), lengths=lengths)
 
 

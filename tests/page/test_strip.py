@@ -43,3 +43,11 @@ def test_a_dance_of_an_answer_is_shown_with_the_contests_numbers(open_page):
     person.settles().holds({"#benches": "223", "#pitch": "1.7", "#head_speed": re.compile("^1.24626635")})
     assert person.address()["handle"] == "3"
     person.sees({"#head-speed .value": "1.246 m/s"})
+    # The map of turns by keys: the marker begins at the contest's turn.
+    person.presses("#question-4 button:has-text('How much shorter?')").sees(
+        {"#question-4 output": "2 : 1, 4.5 m: 13.621 m"}
+    )
+    person.at("#question-4 .turns").press("ArrowDown")
+    person.sees({"#question-4 output": "2 : 1, 4.303 m: 13.003 m"})
+    person.at("#question-4 .turns").press("Enter")
+    person.settles().holds({"#ratio": "2", "#entry_radius": "4.303"})

@@ -107,7 +107,7 @@ export const turn = {
   words: {
     title: "A turn whose length does not know its ratio",
     lead: "To dance out again, the dragon turns on two tangent arcs, the first {ratio} times as wide as the second. It enters at the knob, {entry} from the centre, and leaves opposite. The turn is {length} long.",
-    more: "Drag the ratio: the length stays. The coil outwards is the coil inwards, rotated by half a turn, so that both arcs turn by the same angle, {angle}. Their radii add up to {sum} at every ratio, and the length is angle times sum. Drag the entry inwards, and the turn gets shorter, until a bend is too tight: its radius must be at least {least}, half the distance of the head's two handles. With equal arcs, {ratio=1.00}, neither bend is tighter than the other, so the entry may go in furthest.",
+    more: "Drag the ratio: the length stays. The coil outwards is the coil inwards, rotated by half a turn, so that both arcs turn by the same angle, {angle}. Their radii add up to {sum} at every ratio, and the length is angle times sum. Drag the entry inwards, and the turn gets shorter, until a bend is too tight: a bench surely follows where its radius is at least {least}, half the distance of the head's two handles. With equal arcs, {ratio=1.00}, neither bend is tighter than the other, so the entry may go in furthest.",
     alt: "Two tangent arcs between two coils inside the turning circle, with the benches on them",
   },
   dials: {
