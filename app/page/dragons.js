@@ -4,7 +4,7 @@ import { Problem, Superseded } from "./api.js";
 import { joined, offsetOf, shiftedPath } from "./changes.js";
 import { SPAN, announceOpened, leftWords, wishesIn, wishesOf } from "./files.js";
 import { benchesOf, numbersOfListed } from "./benches.js";
-import { EMPTY, THINGS, drawingOf, fromAddress, isArea, isWhole, keptVenueOf, venueOf } from "./drawing.js";
+import { EMPTY, THINGS, drawingOf, fromAddress, keptVenueOf, venueOf } from "./drawing.js";
 import { $, button, download, hide, make, numberIn, textButton } from "./elements.js";
 import { CONTACT, DRAGON, TURN, numbersOf } from "./fields.js";
 import { stepsOf } from "./history.js";
@@ -15,7 +15,6 @@ import { pending } from "./pending.js";
 import { announceReplaced, isPresetVenue } from "./presets.js";
 import { isFurther, queued } from "./queue.js";
 import { announceSaved } from "./saved.js";
-import { circle, isInside, onBorder } from "./square.js";
 import { language, phrase, say, sayIn, writeTexts } from "./text.js";
 import { LEGS, OWN, PARTS, PRESETS, Tracks, isForeign, legsOf, recordOf, recordText, recordsIn, trackOf, wayOf } from "./together.js";
 
@@ -37,36 +36,21 @@ const [DELAY_MOST, LATER] = [1e6, 30];
 /** Longest wait of a dragon behind another one that is looked for [s]. */
 const WAIT_MOST = 600;
 const DEGREE = Math.PI / 180;
-/** Step along a way that a square must have room for [m]. */
-const WAY_STEP = 0.5;
 
 /** Way of an arrow key along a row. */
 const WAYS = { ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1 };
 /** @returns {any[]} */
 const partsOf = (row) => [...row.querySelectorAll("button, input")].filter((one) => !one.disabled);
 
-/** Points along the way of a dragon, at most a step apart: between its corners, or around its spiral with its tail. */
-function wayPoints({ path, drawing: { points }, ...texts }) {
-  const [pitch, turns, benches, head, body, overhang] = ["pitch", "start_turns", "benches", "head_length", "body_length", "overhang"].map((name) => Number(texts[name]));
-  const length = head + (benches - 1) * body - 2 * benches * overhang;
-  // The arc of a spiral grows with the square of its turns.
-  const corners = path === "route" ? points : circle(2 * pitch * Math.sqrt(turns ** 2 + length / (Math.PI * pitch)), [0, 0]);
-  return corners.flatMap(([x, y], k) => {
-    const [nextX, nextY] = corners[k + 1] ?? [x, y];
-    const parts = Math.max(Math.ceil(Math.hypot(nextX - x, nextY - y) / WAY_STEP), 1);
-    return Array.from({ length: parts }, (_, part) => [x + ((nextX - x) * part) / parts, y + ((nextY - y) * part) / parts]);
-  });
-}
-
-/** True if the square of a drawing has room for the benches of dragons all along their ways, or is none. dances: the values of each */
-function holds({ things }, dances) {
-  const square = things.find((thing) => isArea(thing) && isWhole(thing));
-  const hasRoom = (point, room) => isInside(square.points, point) && onBorder(square.points, point).far >= room;
-  return !square || dances.every((one) => wayPoints(one).every((point) => hasRoom(point, Math.hypot(one.width / 2, one.overhang))));
-}
+/** True for values with a drawn path. */
+const isDrawn = ({ path }) => path === "route";
+/** A dragon with another drawn path. */
+const on = (record, drawing) => ({ ...Object.fromEntries(Object.entries(record).filter(([name]) => !LEGS.includes(name))), ...Object.fromEntries(legsOf(drawing)) });
 
 export class Dragons {
   #loads = Symbol("dragons");
+  /** True while the list is to come into view, because a person has opened it. */
+  #comes = false;
   /** Paths of the dragons of the shown dance. @type {any[]} */
   #ways = [];
 
@@ -161,13 +145,11 @@ export class Dragons {
 
   begin(name) {
     const records = PRESETS[name];
-    // A person's own square stays if the dance fits into it.
+    // A person's own square stays, and the verdict says what does not fit into it.
     const drawing = this.state.get("drawing");
-    const [isOwn, fits] = [!isPresetVenue(drawing), holds(drawing, records.map((record) => this.#valuesOf(record)))];
-    const values = this.#valuesOf(records[0], isOwn && fits ? drawing : { ...EMPTY, limit: isOwn ? drawing.limit : null });
+    const values = this.#valuesOf(records[0], isPresetVenue(drawing) ? EMPTY : drawing);
     this.#take(records, 0, { ...values, time: null, view: null, follow: false });
-    if (isOwn && !fits) announceStep(() => say("This example does not fit into your square and stands without it; undo brings your square back."), true);
-    else announceReplaced(drawing, values.drawing);
+    announceReplaced(drawing, values.drawing);
   }
 
   /** Open a FILE of several: in place of what is there, or beside it. name: of the file */
@@ -200,6 +182,7 @@ export class Dragons {
 
   /** Add a dragon like the chosen one: in the same spiral from the other side, or behind the last one on its drawn path. */
   add() {
+    this.#comes = !this.state.get("dances");
     if (this.state.get("path") === "route") return this.#follow(this.#whole().length - 1);
     const spiral = this.state.get("path") === "spiral";
     const k = Math.max(this.#active, 0);
@@ -214,11 +197,9 @@ export class Dragons {
   async #follow(k) {
     const records = this.#whole();
     const values = records.map((record) => this.#valuesOf(record));
-    const isDrawn = (one) => one.path === "route";
     const rear = values.reduce((last, one, at) => (isDrawn(one) && isFurther(one.drawing, values[last].drawing, true) ? at : last), k);
-    const [numbers, own] = [values[rear], values[k]].map((one) => ({ get: (name) => one[name] ?? this.state.get(name), extras: () => ({ csv: one.csv, listed: one.csv ? benchesOf(one.csv) : null }) }));
+    const [numbers, own] = [values[rear], values[k]].map((one) => this.#numbersOf(one));
     const row = isDrawn(values[k]) ? queued(values[rear].drawing, numbers, own) : null;
-    const on = (record, drawing) => ({ ...Object.fromEntries(Object.entries(record).filter(([name]) => !LEGS.includes(name))), ...Object.fromEntries(legsOf(drawing)) });
     // Whoever ends in the street of the last one goes on, so that the new one has room there.
     const ahead = (record, at) => (row && isDrawn(values[at]) && isFurther(values[at].drawing, values[rear].drawing, false) ? on(record, queued(values[at].drawing, numbers, own).ahead) : record);
     const next = [...records.map(ahead), { ...(row ? on(records[k], row.behind) : records[k]), name: "", colour: "" }];
@@ -228,29 +209,57 @@ export class Dragons {
     await this.#wait(records.length, Number(records[row ? rear : k].delay ?? 0));
   }
 
-  /** Give dragon k the shortest safe delay, from that of the one before [s]. */
-  async #wait(k, least) {
+  /** The numbers of a dance as `streetLength` takes them. */
+  #numbersOf(values) {
+    return { get: (name) => values[name] ?? this.state.get(name), extras: () => ({ csv: values.csv, listed: values.csv ? benchesOf(values.csv) : null }) };
+  }
+
+  /** Give dragon k the shortest safe delay, from that of the one before [s]. isStep: as a change of its own, of which a sentence says what it is */
+  async #wait(k, least, isStep = false) {
     const text = this.#text;
     const { dances, ...limits } = this.#file();
     const contact = Object.fromEntries(CONTACT.filter((name) => name in limits).map((name) => [name, limits[name]]));
-    let [safe, problem] = [[], null];
+    let [answer, problem] = [{ safe: [], summary: "" }, null];
     try {
       const body = { dances, ...contact, part: k, least, most: least + WAIT_MOST };
-      ({ safe } = await this.service.ask("safe delay", "safe-delay", { body }));
+      answer = await this.service.ask("safe delay", "safe-delay", { body });
     } catch (error) {
       if (error instanceof Superseded) return;
       if (!(error instanceof Problem)) throw error;
       ({ problem } = error);
     }
     if (this.#text !== text) return; // A person has changed the dragons meanwhile.
-    const [first] = safe;
+    const [first] = answer.safe;
     this.note = first ? null : { text, k, least, problem };
     if (!first) return this.#noted();
     const tenth = Math.ceil(10 * first[0]) / 10;
     const delay = tenth <= first[1] ? tenth : first[0];
     const records = this.#whole();
-    // It belongs to the step in which the dragon was added.
-    if (delay > least) this.state.set({ dances: this.#textOf(records.with(k, { ...records[k], delay: String(delay) }), this.#active) });
+    const next = records.with(k, { ...records[k], delay: delay ? String(delay) : "" });
+    if (isStep) {
+      this.#take(next);
+      announceStep(() => answer.summary);
+      // It belongs to the step in which the dragon was added.
+    } else if (delay > least) this.state.set({ dances: this.#textOf(next, this.#active) });
+  }
+
+  /** Let the chosen dragon, which has a new path, come in behind those that begin in its street, and wait until they let it pass. */
+  waits() {
+    const [records, k] = [this.#whole(), this.#active];
+    const values = records.map((record) => this.#valuesOf(record));
+    const own = this.#numbersOf(values[k]);
+    let { drawing } = values[k];
+    const others = [...records.keys()].filter((at) => at !== k && isDrawn(values[at]));
+    for (const at of others) {
+      if (!isFurther(values[at].drawing, values[k].drawing, true)) continue;
+      const row = queued(drawing, this.#numbersOf(values[at]), own);
+      if (row) drawing = { ...row.behind, things: row.things };
+    }
+    // Whoever ends in its last street goes on, so that it has room there.
+    const ahead = (at) => (isFurther(values[at].drawing, values[k].drawing, false) ? queued(values[at].drawing, this.#numbersOf(values[at]), own)?.ahead : null);
+    const next = records.map((record, at) => (others.includes(at) && ahead(at) ? on(record, ahead(at)) : record));
+    if (drawing !== values[k].drawing) this.#take(next, k, { drawing, view: null });
+    return this.#wait(k, 0, true);
   }
 
   /** Say that no delay keeps the last dragon apart, or why none was found, as long as they and their square are these. */
@@ -330,6 +339,8 @@ export class Dragons {
     if (focused && this.list.querySelector(`#${CSS.escape(focused)}`)) $(`#${CSS.escape(focused)}`).focus();
     this.#noted();
     writeTexts();
+    if (this.#comes) this.panel.scrollIntoView();
+    this.#comes = false;
   }
 
   #row(records, record, k) {
@@ -341,6 +352,7 @@ export class Dragons {
     const path = isActive ? this.state.get("path") : (record.path ?? "spiral");
     if (path === "spiral") numbers.push(label(phrase("Turned by [°]"), input("dragon-turn", record.rotation ?? "0", { inputMode: "decimal", onchange: ({ target }) => this.#number(k, "rotation", target) })));
     const alone = records.length < 2;
+    numbers.push(button({ id: `dragon-wait-${k}`, textContent: say("Smallest safe delay"), disabled: alone }, () => this.#wait(k, 0, true)));
     const row = make(
       "li",
       { "data-dragon": k },

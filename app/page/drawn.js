@@ -42,10 +42,10 @@ export class Drawn {
   #remark = "";
 
   /**
-   * several(content, name): opens a dance of several dragons
-   * @param {{ state: State, service: Service, questions: Questions, dance: any, draw: any, several: any }} parts
+   * several(content, name): opens a dance of several dragons; placed(): called when one of them has a proposed dance
+   * @param {{ state: State, service: Service, questions: Questions, dance: any, draw: any, several: any, placed: any }} parts
    */
-  constructor({ state, service, questions, dance, draw, several }) {
+  constructor({ state, service, questions, dance, draw, several, placed }) {
     this.state = state;
     this.service = service;
     this.questions = questions;
@@ -62,7 +62,7 @@ export class Drawn {
     this.change = new Change($("#stage"));
     this.figure = new Figure($("#stage"), this.editor, () => this.#free());
     new Menu($("#stage"), this.editor);
-    this.propose = new Propose($("#place"), { state, service, questions, steps: this.steps, editor: this.editor, changed: () => this.show() });
+    this.propose = new Propose($("#place"), { state, service, questions, steps: this.steps, editor: this.editor, changed: () => this.show(), placed });
     this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point, ACROSS));
     this.#invite();
     const { below, names, above } = layers(dance, () => this.#visible());

@@ -365,7 +365,8 @@ async function openRoute() {
   const { Drawn } = await parts.load("drawn");
   if (route) return route;
   const several = async (...all) => (await openDragons()).open(...all);
-  route = new Drawn({ state, service, questions, dance, draw, several });
+  const placed = async () => state.get("dances") && (await openDragons()).waits();
+  route = new Drawn({ state, service, questions, dance, draw, several, placed });
   writeTexts();
   route.translate();
   const { course } = questions;

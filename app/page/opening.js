@@ -24,7 +24,7 @@ export function chooseHow(name) {
       "div",
       { id: "opening", popover: "manual", role: "dialog", "aria-labelledby": title.id },
       title,
-      make("p", { "data-text": "You have drawn a square or a dance. Beside it, yours stays: things of the file join yours, and its dance becomes a further dragon. In its place, only the file is there. Undo takes back either." }),
+      make("p", { "data-text": "You have drawn a square or a dance. Beside it, yours stays: what you open joins it, and the dance of a file becomes a further dragon. In its place, only what you open is there. Undo takes back either." }),
       make("p", { className: "buttons" }, beside, textButton("In its place", () => end("instead"), { id: "instead" }), textButton("Close", () => end(null))),
     );
     document.body.append(box);

@@ -88,11 +88,12 @@ export class Propose {
 
   /**
    * @param {any} box
-   * changed(): called when a search begins or ends, or a dance is found
-   * @param {{ state: State, service: Service, questions: Questions, steps: Steps, editor: Editor, changed: () => void }} parts
+   * changed(): called when a search begins or ends, or a dance is found; placed(): when one is chosen
+   * @param {{ state: State, service: Service, questions: Questions, steps: Steps, editor: Editor, changed: () => void, placed: () => void }} parts
    */
-  constructor(box, { state, service, questions, steps, editor, changed }) {
+  constructor(box, { state, service, questions, steps, editor, changed, placed }) {
     this.changed = changed;
+    this.placed = placed;
     this.box = box;
     this.state = state;
     this.service = service;
@@ -352,7 +353,9 @@ export class Propose {
     const yard = yardOf(drawing);
     const area = opened.things.find(({ kind }) => kind === "area");
     const hasStreets = drawing.things.some(({ kind }) => kind === "gate");
-    const things = drawing.things.map((thing) => (thing.kind === "area" ? { ...thing, points: hasStreets ? area.points : yard } : thing));
+    // The streets in which other dragons stand already stay.
+    const isCommon = hasStreets && drawing.yard && this.state.get("dances");
+    const things = drawing.things.map((thing) => (thing.kind === "area" && !isCommon ? { ...thing, points: hasStreets ? area.points : yard } : thing));
     // What is judged and shown is what the address says, to every digit.
     const { path, start, begin } = { ...opened, path: roundedRoute(dance.path), start: dance.start, begin: dance.path.start };
     this.editor.turn(false);
@@ -364,6 +367,7 @@ export class Propose {
     this.#answer.key = this.#keyOf(this.#request());
     this.#made = { path: this.#drawing.path, key: this.#answer.key };
     this.changed();
+    this.placed();
   }
 
   /** True for an answer to another question than that of what is shown now. */

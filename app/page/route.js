@@ -1,8 +1,9 @@
 /** The form of a drawn dance: presets, its points and its venue as lists, files in and out. */
 
-import { bent, moved, removed, withThing } from "./changes.js";
+import { bent, joined, moved, removed, withThing } from "./changes.js";
 import { EMPTY, THINGS, freeName } from "./drawing.js";
 import { button, hide, make, numberIn, textButton } from "./elements.js";
+import { chooseHow } from "./opening.js";
 import { laterBy, passagesText, wayAt } from "./passages.js";
 import { PRESETS, PRESET_NAMES, announceReplaced, isPresetVenue, shownAt } from "./presets.js";
 import { phrase, say } from "./text.js";
@@ -151,17 +152,20 @@ export class RouteForm {
     else if (this.origin.every(({ value }) => !value.trim())) this.#take({ origin: null });
   }
 
-  /** Begin with a preset; a person's own square stays, unless the preset has one. */
-  beginWith(name) {
-    const { things, origin, grid, limit } = this.#drawing;
-    const isOwn = !isPresetVenue(this.#drawing);
+  /** Begin with a preset; a person's own square stays, which is asked where the preset has one. */
+  async beginWith(name) {
     if (this.presets.matches(":popover-open")) this.presets.hidePopover();
     this.editor.edit(null);
     const preset = PRESETS[name] ?? EMPTY;
     const translated = preset.things.map((thing) => ({ ...thing, name: say(thing.name) }));
-    const drawing = { ...preset, ...(isOwn && !translated.length ? { things, origin, grid, limit } : { things: translated }) };
+    const isOwn = !isPresetVenue(this.#drawing);
+    const how = isOwn && translated.length ? await chooseHow(say(PRESET_NAMES[name])) : "";
+    if (how === null) return;
     const before = this.#drawing;
-    this.steps.change({ drawing, view: null, time: shownAt(preset) });
+    const { things, origin, grid, limit } = before;
+    const example = { ...preset, ...(isOwn && !translated.length ? { things, origin, grid, limit } : { things: translated }) };
+    const drawing = how === "beside" ? joined(before, example).drawing : example;
+    this.steps.change({ drawing, view: null, time: drawing === example ? shownAt(preset) : null });
     announceReplaced(before, drawing);
   }
 

@@ -57,12 +57,17 @@ class SafeDelays(Answer, of=core.SafeDelays):
     stray: float | None = TOTAL_STRAY
     stop: float | None
     marches: int
+    summary: str = Field(description="The answer in one sentence")
 
     @classmethod
     def of(cls, result: core.SafeDelays, request: SafeDelayRequest) -> Self:
         first = result.safe[0][0] if result.safe else None
         name = result.performance.parts[result.part].name
-        return cls.from_result(result, name=name, first_safe=first, stray=request.total_stray)
+        who = name or say("dragon {k}", k=result.part)
+        span = {"least": format_number(result.least), "most": format_number(result.most)}
+        template = NONE if first is None else AT_ONCE if first == result.least else FIRST
+        summary = say(template, name=who, delay=format_bound(first or 0.0, 1, up=True), **span)
+        return cls.from_result(result, name=name, first_safe=first, stray=request.total_stray, summary=summary)
 
 
 def safe_delay(request: SafeDelayRequest, terms: Terms) -> SafeDelays:
@@ -87,7 +92,7 @@ def _parts(answer: SafeDelays, request: Wire) -> Iterator[Part]:
     name = answer.name or say("dragon {k}", k=answer.part)
     span = {"least": format_number(answer.least), "most": format_number(answer.most)}
     if not answer.safe:
-        yield say("No delay of {name} from {least} to {most} s is known to be safe.", name=name, **span)
+        yield answer.summary
     for title, intervals in ((SAFE, answer.safe), (UNDECIDED, answer.undecided)):
         if intervals:
             yield say(title, name=name, **span)
@@ -96,6 +101,11 @@ def _parts(answer: SafeDelays, request: Wire) -> Iterator[Part]:
             yield Table("", say("from [s]"), say("to [s]"), lines=lines)
 
 
+NONE = phrase("No delay of {name} from {least} to {most} s is known to be safe.")
+AT_ONCE = phrase("{name} need not wait: no dragons meet with a delay of {least} s, the shortest that was asked for.")
+FIRST = phrase(
+    "{name} waits {delay} s before it begins: the shortest delay from {least} to {most} s that is known to be safe."
+)
 SAFE = phrase("Safe delays of {name} from {least} to {most} s:")
 UNDECIDED = phrase("Undecided delays of {name} from {least} to {most} s:")
 QUESTION = Question(

@@ -411,7 +411,8 @@ def test_every_preset_can_be_danced_leaves_a_square_of_ones_own_and_a_later_star
     for name, count in (("street", 2), ("empty", 0)):
         person.presses("#preset", f"[data-begin={name}]").sees({"#points summary": f": {count}", "#things li": 2})
         person.sees({"#status": "has taken the place of the path; Undo brings it back"}).presses("#status")
-    person.presses("#preset", "[data-begin=village]").sees({"#status": "the place of the square; Undo brings it back"})
+    person.presses("#preset", "[data-begin=village]", "#beside-it").sees({"#things li": 6}).presses("#undo")
+    person.presses("#preset", "[data-begin=village]", "#instead").sees({"#status": "the place of the square; Undo"})
     person.presses("#undo").sees({"#things li": 2})
     assert person.text("#status") == ""
 

@@ -1,5 +1,7 @@
 """Safe delays of one dragon, over HTTP and from a terminal."""
 
+import math
+
 from app.maps.dances import read_dance
 from tests.conftest import ROOT
 from tests.support.asking import dance, written
@@ -20,6 +22,8 @@ def test_a_dragon_is_named_by_its_number_or_its_name(ask):
     assert first["part"] == 0
     assert first == ask("safe-delay", CROSSING | {"part": 0.0})
     assert ask("safe-delay", CROSSING | {"dances": [EAST, NORTH], "part": "1"})["safe"] == second["safe"]
+    later = ask("safe-delay", CROSSING | {"least": 0})
+    assert later["summary"].startswith(f"3 waits {math.ceil(later['first_safe'] * 10) / 10} s before it begins")
 
 
 def test_a_way_that_is_never_free_has_no_safe_delay(ask, tmp_path):
