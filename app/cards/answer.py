@@ -111,6 +111,8 @@ class CueCard(Answer):
     meetings: list[Meeting] = Field(description="All meetings within the reach, in order of time")
     fastest: Fastest = Field(description="When it is fastest")
     done: Stand = Field(description="When and where it stops for good")
+    place: str = Field(description="Where its carriers stand at the start, in one sentence")
+    beside: str = Field(description="Who is before and behind it, in words")
 
 
 class Cues(Answer):
@@ -219,4 +221,6 @@ def _values(card: Card, words: CardWords, kind: type[Cue]) -> dict[str, Any]:
         "meetings": [_meeting(one, words) for one in bench.meetings],
         "fastest": Fastest.from_result(bench.fastest, speed_ratio=ratio),
         "done": _stand(bench.done, words),
+        "place": words.standing(bench.start),
+        "beside": words.neighbours(bench.ahead, bench.behind),
     }

@@ -219,6 +219,11 @@ class CardWords:
                 best, least = name, beside
         return best
 
+    def standing(self, stand: Stand) -> str:
+        """Where carriers stand."""
+        template = phrase("You stand {place} (x {x} m, y {y} m).")
+        return say(template, place=self.at_mark(stand), x=f"{stand.x + 0.0:.1f}", y=f"{stand.y + 0.0:.1f}")
+
     def at_mark(self, stand: Stand) -> str:
         """A place as whole steps from the nearest chalk mark."""
         place, past = self.chalk.nearest(stand.s)

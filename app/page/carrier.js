@@ -6,10 +6,6 @@ import { canKeep, forget, isKept, keep } from "./kept.js";
 import { secondsBetween, timeOfDay } from "./passages.js";
 import { benchTitle, language, languages, learn, phrase, say, sentencesOf } from "./text.js";
 
-/** Where a person stands by a mark: 1 step from it, and more. */
-const PAST = [phrase("You stand 1 step past chalk mark {mark} m (x {x} m, y {y} m)."), phrase("You stand {steps} steps past chalk mark {mark} m (x {x} m, y {y} m).")];
-const BEFORE = [phrase("You stand 1 step before chalk mark {mark} m (x {x} m, y {y} m)."), phrase("You stand {steps} steps before chalk mark {mark} m (x {x} m, y {y} m).")];
-
 /** Time between two pictures, in motion and with reduced motion [ms]. */
 const [FRAME, STEP] = [50, 500];
 /** Part of the ground across the picture [m]. */
@@ -298,18 +294,14 @@ export class Carrier {
     const { dance } = this.questions;
     const card = this.#card;
     const benches = dance?.numbers.benches ?? Infinity;
-    const name = (k) => benchTitle(k, benches);
-    const bench = this.#bench < benches ? name(this.#bench) : `${say("Bench")} ${this.#bench}`;
+    const bench = this.#bench < benches ? benchTitle(this.#bench, benches) : `${say("Bench")} ${this.#bench}`;
     const dragons = dance?.parts?.map(({ nameIn }) => nameIn(language())) ?? [];
     this.dragon.replaceChildren(...dragons.map((textContent, value) => make("option", { value, textContent, selected: value === dance.active })));
     this.dragon.hidden = !dragons.length;
     this.title.textContent = dragons.length ? say("{dragon}: {bench}", { bench, dragon: dragons[dance.active] }) : bench;
     document.title = `${this.title.textContent} · ${say("Bench Dragon")}`;
-    const { ahead, behind, start } = card ?? {};
-    const key = ahead ? (behind ? phrase("Before you: {ahead}. Behind you: {behind}.") : phrase("Before you: {ahead}. Nobody is behind you.")) : behind ? phrase("You lead. Behind you: {behind}.") : phrase("You dance alone.");
-    this.beside.textContent = card ? say(key, { ahead: ahead && name(ahead.bench), behind: behind && name(behind.bench) }) : "";
-    const stands = start && (start.steps ? (start.steps > 0 ? PAST : BEFORE)[Math.min(Math.abs(start.steps), 2) - 1] : phrase("You stand at chalk mark {mark} m (x {x} m, y {y} m)."));
-    this.#standing = card ? say(stands, { mark: start.mark, steps: Math.abs(start.steps), x: start.x.toFixed(1), y: start.y.toFixed(1) }) : "";
+    this.beside.textContent = card?.beside ?? "";
+    this.#standing = card?.place ?? "";
     this.list.replaceChildren(...(card?.cues ?? []).map((cue) => make("li", {}, make("span", { textContent: this.#timeOf(cue.time) }), make("span", { textContent: cue.words }))));
     this.byClock.hidden = !dance?.clock;
     this.#showTime();

@@ -1,7 +1,7 @@
 /** The square by its size, and dances proposed for it: one of the cards becomes the route. */
 
 import { Problem, Superseded, TOO_LONG } from "./api.js";
-import { cardPicture, cardTitles, cardWords } from "./cards.js";
+import { cardPicture } from "./cards.js";
 import { headingOf, withPoints } from "./changes.js";
 import { FACTORS, times } from "./controls.js";
 import { Corners } from "./corners.js";
@@ -164,7 +164,7 @@ export class Propose {
   #request() {
     const { numbers, extras, ...request } = /** @type {any} */ (this.questions.drawn());
     const drawing = { ...this.#drawing, things: this.#drawing.things.map((thing) => (thing.kind === "area" ? { ...thing, points: yardOf(this.#drawing) } : thing)) };
-    const gates = drawing.things.filter(({ kind }) => kind === "gate").map((gate) => ({ point: gate.points[0], ...ownOf(gate), heading: headingOf(this.#drawing, gate) }));
+    const gates = drawing.things.filter(({ kind }) => kind === "gate").map((gate) => ({ name: gate.name, point: gate.points[0], ...ownOf(gate), heading: headingOf(this.#drawing, gate) }));
     const { dragon } = this.questions.body({}, { numbers, extras, ...request });
     const { seconds, laps } = this.#howLong;
     const limits = { head_speed: numbers.head_speed, margin: numbers.margin, stray: strayOf(numbers), ...(drawing.limit && { speed_limit: drawing.limit }), ...(seconds && { duration_limit: seconds }), ...(laps && { laps }) };
@@ -254,8 +254,8 @@ export class Propose {
       if (search !== this.#search) return;
       // Cards that are there stay in their places: somebody may be reading them. A better dance takes the place of another.
       const { proposals: found, courses: theirs } = this.#answer ?? { proposals: [], courses: [] };
-      const texts = answer.proposals.map((one) => JSON.stringify(one));
-      const known = found.map((one) => texts.indexOf(JSON.stringify(one)));
+      const texts = answer.proposals.map(({ dance }) => JSON.stringify(dance));
+      const known = found.map(({ dance }) => texts.indexOf(JSON.stringify(dance)));
       const further = [...texts.keys()].filter((k) => !known.includes(k));
       const order = [...known.map((k) => (k < 0 ? further.shift() : k)), ...further].filter((k) => k !== undefined);
       const courses = await Promise.all(order.map((k) => theirs[known.indexOf(k)] ?? this.#courseOf(answer.proposals[k], k)));
@@ -339,8 +339,9 @@ export class Propose {
     this.changed();
   }
 
-  #keyOf(request) {
-    return JSON.stringify(request);
+  /** What a question is known by: another name of a gate is no other question. */
+  #keyOf({ gates, ...request }) {
+    return JSON.stringify([request, gates.map(({ name, ...gate }) => gate)]);
   }
 
   /** Make the dance of a card the route. */
@@ -480,13 +481,11 @@ export class Propose {
     if (drawn === this.#drawn) return;
     this.#drawn = drawn;
     if (!answer) return this.cards.replaceChildren();
-    const named = (wanted) => answer.things.filter(({ kind }) => kind === wanted).map(({ name }) => name);
-    const titles = cardTitles(answer, named("gate"));
     const cards = answer.proposals.map((proposal, k) => {
-      const { size, good, tight, isTight } = cardWords(proposal, answer.proposals, named("area")[0]);
+      const { title, size, good, tight, is_tight: isTight } = proposal.cards[language()];
       const lines = [["good", "✓", good], [isTight ? "tight" : "near", isTight ? "!" : "↔", tight]].map(([className, mark, text]) => make("span", { className }, make("b", { "aria-hidden": "true", textContent: mark }), " ", text));
       const picture = make("span", { className: "picture", "aria-hidden": "true", innerHTML: cardPicture(answer, answer.courses[k]) });
-      return make("li", {}, button({ "aria-pressed": this.#chosen === k && !isOld, disabled: isOld }, () => this.#choose(k), picture, make("b", { textContent: titles[k] }), make("span", { className: "hint", textContent: size }), ...lines));
+      return make("li", {}, button({ "aria-pressed": this.#chosen === k && !isOld, disabled: isOld }, () => this.#choose(k), picture, make("b", { textContent: title }), make("span", { className: "hint", textContent: size }), ...lines));
     });
     this.cards.replaceChildren(...cards);
   }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Annotated, Any, Self
 
 import orjson
@@ -10,15 +10,16 @@ from pydantic import Field
 
 import core
 from app.questions.check import Failure
+from app.questions.proposal_cards import Card, Cards
 from app.wire.dances import DragonFields, VenueFields
 from app.wire.degrees import GeographicOrigin, Place
-from app.wire.fields import Angle, Answer, Margin, SpeedLimit, Whole, Wire, measure
+from app.wire.fields import Angle, Answer, Margin, OneLine, SpeedLimit, Whole, Wire, measure
 from app.wire.geojson import venue_geometry
 from app.wire.labels import Heading, Part, Table, value_word
 from app.wire.paths import Point, path_of
 from app.wire.question import Command, Output, Question, Terms, Writer
 from core.dragon import BENCHES_MAX
-from core.language import say
+from core.language import Language, say
 from core.proposal.gates import GATES_MAX, STREETS
 from core.proposal.propose import COUNT_MOST, DURATIONS
 from core.proposal.search import HEAD_SPEED, LAPS_MOST
@@ -33,6 +34,7 @@ class GateBody(Wire, strict=True):
     point: Point = measure("m", "Place on the border of the square, x and y")
     heading: Angle = measure("rad", "Direction of those who enter there, counter-clockwise from the x axis")
 
+    name: OneLine = Field("", description="Name of the gate, for the words of a dance")
     use: core.GateUse = Field(
         core.GateUse.BOTH, strict=False, description="Whether a dance may begin there, end there, or both"
     )
@@ -116,11 +118,13 @@ class Proposal(Answer):
     near: core.Near = Field(description="What the benches come nearest to")
     gates: list[int] = Field(description="Numbers of the gates by which it enters and leaves; none without gates")
     summary: str = Field(description="The proposal in one sentence")
+    cards: dict[Language, Card] = Field(description="What to say of it beside the others, in every language")
 
     @classmethod
-    def of(cls, result: core.Proposal, body: dict[str, Any]) -> Self:
+    def of(cls, result: core.Proposal, body: dict[str, Any], cards: dict[Language, Card]) -> Self:
         speed = result.report.highest_speed
-        return cls.from_result(result, dance=body, highest_speed=speed and speed.speed, summary=result.message)
+        own = {"highest_speed": speed and speed.speed, "summary": result.message, "cards": cards}
+        return cls.from_result(result, dance=body, **own)
 
 
 class Lack(Answer):
@@ -187,11 +191,19 @@ def _with_files(request: ProposalsRequest, terms: Terms) -> tuple[Proposals, dic
 
 def _answer_of(request: ProposalsRequest, result: core.Proposals, place: Place) -> Proposals:
     """The answer with the proposals of core."""
-    bodies = [Proposal.of(one, body_of(request, one, place.origin)) for one in result.proposals]
+    bodies = _worded(request, result.proposals, place)
     reason, kind = (result.reason.message, result.reason.kind) if result.reason else (None, None)
     values = result.reason and Lack.of(result.reason, request.to_dragon(BENCHES_MAX))
     own: dict[str, Any] = {"reason": reason, "reason_kind": kind, "reason_values": values}
     return Proposals.from_result(result, proposals=bodies, summary=result.message, **own)
+
+
+def _worded(request: ProposalsRequest, found: Sequence[core.Proposal], place: Place) -> list[Proposal]:
+    """Proposals with their cards, each beside the others."""
+    assert place.venue is not None
+    names = [gate.name or say("gate {k}", k=k) for k, gate in enumerate(request.gates)]
+    cards = Cards(found, place.venue.square, names, request.stray)
+    return [Proposal.of(one, body_of(request, one, place.origin), cards.of(k)) for k, one in enumerate(found)]
 
 
 def _proposed(request: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, Place]:
@@ -204,13 +216,19 @@ def _proposed(request: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, 
     limits: dict[str, Any] = {"stray": request.stray, "margin": request.margin, "speed_limit": request.speed_limit}
     wishes = ("objective", "count", "laps", "duration_limit", "head_speed")
     wish: dict[str, Any] = {name: getattr(request, name) for name in wishes}
+    found: list[core.Proposal] = []
+
+    def tell(one: core.Proposal) -> None:
+        found.append(one)
+        terms.part(_worded(request, found, place)[-1])
+
     result = core.propose(
         place.venue,
         dragon,
         gates=gates,
         figures=request.figures,
         budget=terms.budget,
-        on_proposal=lambda one: terms.part(Proposal.of(one, body_of(request, one, place.origin))),
+        on_proposal=tell,
         progress=terms.progress,
         **wish,
         **limits,

@@ -169,7 +169,7 @@ def test_the_view_opens_from_the_page_chooses_benches_and_dragons_closes_where_i
     person = open_page("?benches=20&time=100&handle=4&lang=en").reaches_below().presses("#card-follow")
     assert held(person).address()["bench"] == "4"
     person.types({"#card-bench": "12"}).reads({"#carrier h1": "body 12"}).arrives("**bench=12**")
-    person.reads({"#card-more .beside": "Before you: body 11. Behind you: body 13."}).types({"#card-bench": "300"})
+    person.reads({"#card-more .beside": "Before you: 11. Behind you: 13."}).types({"#card-bench": "300"})
     person.reads({CUE: "This dragon has no bench 300: its tail is bench 19."}).page.go_back()
     held(person.sees({"#carrier": False}).presses("#card-follow")).presses("#carrier [aria-label=Close]")
     person.sees({"#carrier": False}).settles()

@@ -1,6 +1,7 @@
 """Proposals over HTTP and from a terminal: each is a dance that /check passes as it is."""
 
 import math
+import re
 
 import pytest
 
@@ -51,7 +52,12 @@ def test_every_dance_passes_its_check_as_it_is(ask, more):
         in_place = [one["near"]["in_place"], one["clearance_in_place"]]
         assert_near([own["distance"], calm["least_clearance"]["distance"]], in_place, 1e-9)
         assert f"from '{one['near']['name']}'" in one["summary"]
+        near = min((one["clearance"], one["clearance_in_place"]), (one["near"]["distance"], one["near"]["in_place"]))
+        distances = re.findall(r"[\d.]+ c?m", one["cards"]["en"]["tight"])[:3]
+        assert distances == [f"{near[1]:.2f} m", f"{near[0]:.2f} m", "5 cm"]
         assert not one["gates"] or "from gate {} to gate {}".format(*one["gates"]) in one["summary"]
+    titles = [one["cards"][language]["title"] for language in ("en", "zh") for one in answer["proposals"]]
+    assert len(set(titles)) == len(titles)
 
 
 def test_a_reason_stands_where_no_dance_fits(ask):
