@@ -11,8 +11,7 @@ import numpy as np
 
 from core import Dance, Spiral, Turn
 from tests.campaigns import hunting
-from tests.campaigns.hunt_contacts import GAP, SlowLook, judged, random_dragon, random_margin
-from tests.support.slow_route import SlowRoute
+from tests.campaigns.hunt_contacts import GAP, SlowLook, judged, random_case, random_dragon, random_margin
 from tests.support.slow_search import SlowDance, arc_length
 
 # Error of a slow place for each metre of a path, some roundings of a double [1].
@@ -35,18 +34,9 @@ def random_turn(rng, dragon):
     )  # fmt: skip
 
 
-def turn_case(rng):
-    """dance, margin, start, stop, the slow look at it, its accuracy; raises: InvalidValue for what core refuses"""
-    dragon = random_dragon(rng)
-    dance = Dance(dragon, random_turn(rng, dragon))
-    slow = SlowRoute.of(dragon, dance.path)
-    look = SlowLook(slow, dance.begin, slow.end())
-    stop = look.until if look.until < slow.end() - 1.0 else None
-    return dance, random_margin(rng, look, dragon), dance.begin, stop, look, GAP
-
-
-def spiral_case(rng):
-    """The same for the last turns of a long spiral."""
+def spiral_case(seed, case):
+    """dance, margin, start, stop, the slow look at the last turns of a long spiral, and its accuracy"""
+    rng = hunting.generator(seed, case)
     dragon = random_dragon(rng)
     pitch = rng.uniform(0.3, 2.0)
     turns = 10.0 ** rng.uniform(1.0, 3.0)
@@ -57,14 +47,13 @@ def spiral_case(rng):
     fold = min(slow.end(), dance.end.time)
     start = float(max(fold - left, 0.0))
     look = SlowLook(slow, start, float(max(fold - BEFORE_FOLD * slow.chords.min(), start)))
-    accuracy = GAP + OF_PATH * slow.way
-    return dance, random_margin(rng, look, dragon), start, look.until, look, accuracy
+    return dance, random_margin(rng, look, dragon), start, look.until, look, GAP + OF_PATH * slow.way
 
 
 def fault(seed, case):
     """The kind of one random answer, and its fault in words ('' for none)."""
-    kind, make = [("turn", turn_case), ("long spiral", spiral_case)][case % 2]
-    outcome, wrong = hunting.unless_refused(judged, make, hunting.generator(seed, case))
+    kind, make = [("turn", partial(random_case, any_path=random_turn)), ("long spiral", spiral_case)][case % 2]
+    outcome, wrong = hunting.unless_refused(judged, make, seed, case)
     return f"{kind}: {outcome}", wrong
 
 
