@@ -4,7 +4,7 @@ import { aligned, copied, figured, inserted, isFigure, moved, pointsOf, removed,
 import { LANE_RADIUS, THINGS, freeName, isLine, place, yardOf } from "./drawing.js";
 import { $, $$, make, onClick } from "./elements.js";
 import { announce } from "./overlays.js";
-import { extent, isInside, onBorder, rectangle, streetLength } from "./square.js";
+import { crossesItself, extent, isInside, onBorder, rectangle, streetLength } from "./square.js";
 import { between, say } from "./text.js";
 import { decimetres, nearestLeg, squared, thingUnder, thingsWithin } from "./touch.js";
 
@@ -91,7 +91,7 @@ export class Editor {
     canvas.addEventListener("keydown", (event) => this.#next(event));
     canvas.addEventListener("pointerdown", (event) => this.#seize(event), { capture: true });
     canvas.addEventListener("pointermove", (event) => this.#pull(event));
-    for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, () => this.#drop());
+    for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, (event) => this.#drop(event));
     addEventListener("keydown", (event) => this.#command(event));
   }
 
@@ -370,7 +370,7 @@ export class Editor {
       event.preventDefault();
       this.#grips[kind].focus({ preventScroll: true });
       this.#grips[kind].setPointerCapture(event.pointerId);
-      this.#hold({ k: kind, from: [event.clientX, event.clientY] });
+      this.#hold(event, { k: kind });
     };
     const onkeydown = (event) => {
       const way = KEYS[event.key];
@@ -407,7 +407,7 @@ export class Editor {
 
   /** What a pressed button does while its pointer moves and when it is let go. */
   get #dragging() {
-    const drop = () => this.#drop();
+    const drop = (event) => this.#drop(event);
     return { onpointermove: (event) => this.#pull(event), onpointerup: drop, onpointercancel: drop };
   }
 
@@ -446,7 +446,7 @@ export class Editor {
     const canvas = $("#canvas");
     canvas.focus({ preventScroll: true });
     canvas.setPointerCapture(event.pointerId);
-    this.#hold({ k, from: [event.clientX, event.clientY] });
+    this.#hold(event, { k });
   }
 
   /** Show the frame from where the pointer was pressed to where it is. */
@@ -473,22 +473,30 @@ export class Editor {
     const k = far.indexOf(Math.min(...far));
     this.#knots[k].focus({ preventScroll: true });
     this.#knots[k].setPointerCapture(event.pointerId);
-    this.#hold({ k, from, shift: shifts[k] });
+    this.#hold(event, { k, shift: shifts[k] });
   }
 
-  #hold(drag) {
+  #hold({ pointerId: pointer, clientX, clientY }, drag) {
     this.dance.view.fitted = false;
-    this.#drag = { ...drag, base: this.#drawing, far: false };
+    this.#drag = { ...drag, pointer, from: [clientX, clientY], base: this.#drawing, far: false };
   }
 
   #pull(event) {
     const drag = this.#drag;
-    if (!drag) return;
+    // Of a finger and a mouse at once, the one that began moves it.
+    if (!drag || event.pointerId !== drag.pointer) return;
     drag.far ||= Math.hypot(event.clientX - drag.from[0], event.clientY - drag.from[1]) > TRAVEL;
     if (!drag.far) return;
     if (drag.k === "frame") return this.#framed(event, drag);
     const change = drag.k === null || drag.k === "move" ? this.#carried : drag.k in GRIPS ? this.#around : this.#bent;
-    this.state.set({ drawing: change.call(this, event, drag) }, false);
+    const drawing = change.call(this, event, drag);
+    if (change === this.#bent && this.#crosses(drawing) && !this.#crosses(drag.base)) {
+      // The last one that does not cross itself stays.
+      if (!drag.crosses) announce(() => say("Here the sides would cross each other: it stays as it was before."));
+      drag.crosses = true;
+      return;
+    }
+    this.state.set({ drawing }, false);
   }
 
   /** The drawing with the dragged point where the pointer is: in line with its neighbours and in whole decimetres, with Alt as it is. */
@@ -508,8 +516,14 @@ export class Editor {
     return this.hasFigure ? figured(base, { by: rest }) : shiftedAll(base, this.items, rest);
   }
 
-  #drop() {
+  /** True if the edited thing is an area whose sides cross. */
+  #crosses(drawing) {
+    return !this.#isLine && crossesItself(pointsOf(drawing, this.item));
+  }
+
+  #drop({ pointerId }) {
     const drag = this.#drag;
+    if (drag && drag.pointer !== pointerId) return;
     this.#drag = null;
     this.#frame.hidden = true;
     if (drag?.corners) {

@@ -65,6 +65,15 @@ export function measures(points, isClosed) {
   return { lengths, angles };
 }
 
+/** True if two sides of a ring cross each other. */
+export function crossesItself(ring) {
+  const side = ([ax, ay], [bx, by], [px, py]) => Math.sign((bx - ax) * (py - ay) - (by - ay) * (px - ax));
+  return ring.some((b, k) => {
+    const a = ring.at(k - 1);
+    return ring.slice(k + 1).some((d, j) => side(a, b, ring[k + j]) * side(a, b, d) < 0 && side(ring[k + j], d, a) * side(ring[k + j], d, b) < 0);
+  });
+}
+
 /** What a square of one of these shapes looks like as numbers: {name, cut: [width, length] of what is cut out}; null for another square. shapes: [name, draw] */
 export function shapeOf(ring, shapes) {
   const { width, height, middle } = extent(ring);
