@@ -105,19 +105,19 @@ def mark_pair(axes: Axes, outlines: Floats, benches: Sequence[int]) -> None:
 
 # Words for the corners and edges of a bench, by their names.
 FEATURES: Phrases = {
-    "front": "front edge of bench {bench}",
-    "rear": "rear edge of bench {bench}",
-    "inner": "inner edge of bench {bench}",
-    "outer": "outer edge of bench {bench}",
-    "front-outer": "front-outer corner of bench {bench}",
-    "front-inner": "front-inner corner of bench {bench}",
-    "rear-outer": "rear-outer corner of bench {bench}",
-    "rear-inner": "rear-inner corner of bench {bench}",
+    "front": "front edge",
+    "rear": "rear edge",
+    "inner": "inner edge",
+    "outer": "outer edge",
+    "front-outer": "front-outer corner",
+    "front-inner": "front-inner corner",
+    "rear-outer": "rear-outer corner",
+    "rear-inner": "rear-inner corner",
 }
 
 
 def feature_words(feature: BenchFeature) -> str:
-    return say(FEATURES[feature.name], bench=feature.bench)
+    return say("{feature} of bench {bench}", feature=say(FEATURES[feature.name]), bench=feature.bench)
 
 
 def draw_enlarged(

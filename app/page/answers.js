@@ -33,12 +33,12 @@ function engines({ caption, rows }) {
  * Replace the content of a box, but keep its details open. words: of the answer; sentences: below its value; offer: [the text of its
  * button, what that does]; outcome: colours the box
  */
-export function show(box, { words, sentences }, offer = null, outcome = "") {
+export function show(box, { words, sentences, certificate = null }, offer = null, outcome = "") {
   const open = box.querySelector("details")?.open ?? false;
   const { title, headline, exact, facts = [], notes = [], engines: judged } = words;
   const rows = headline === exact || isExact() ? facts : [[say("More digits"), exact], ...facts];
   const list = rows.length ? [make("dl", {}, ...rows.flatMap(([name, text]) => [make("dt", { textContent: name }), make("dd", { textContent: text })]))] : [];
-  const known = [...list, ...notes.map((note) => paragraph(note, { className: "method" })), ...(judged ? [engines(judged)] : [])];
+  const known = [...list, ...[...(certificate ? [certificate.method] : []), ...notes].map((note) => paragraph(note, { className: "method" })), ...(judged ? [engines(judged)] : [])];
   const details = known.length ? [make("details", { open }, make("summary", { textContent: say("How it is known") }), ...known, idea(box))] : [];
   box.dataset.outcome = outcome;
   const mark = outcome ? [make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[outcome] })] : [];

@@ -16,6 +16,7 @@ from core.design.pitch_search import JustifiedBy
 from core.errors import format_bound, format_number
 from core.failures import approach_words
 from core.language import Listed, Phrases, joined, phrase, say
+from core.plots import FEATURES
 from core.shapes.engines import Engine
 
 # Sentences about contacts. With a margin benches in contact may be apart, and with a stray they only may touch.
@@ -66,17 +67,6 @@ ENGINES: Phrases = {
     Engine.SHAPELY: "shapely",
     Engine.ANGLE_SUM: "angle sum (paper)",
 }
-# Corners and edges of a bench.
-FEATURES: Phrases = {
-    "front-outer": "front outer corner",
-    "front-inner": "front inner corner",
-    "rear-outer": "rear outer corner",
-    "rear-inner": "rear inner corner",
-    "front": "front edge",
-    "rear": "rear edge",
-    "outer": "outer edge",
-    "inner": "inner edge",
-}
 # Why every larger pitch is right.
 JUSTIFIED: Phrases = {
     JustifiedBy.BOUND: "feasible, proven for all at once",
@@ -106,7 +96,9 @@ class Words(Answer):
     headline: str = Field(description="The answer in a few words, rounded as people say it")
     exact: str = Field(description="The same with all of its digits")
     facts: list[tuple[str, str]] = Field([], description="How it is known: what, and its value")
-    notes: list[str] = Field([], description="How it is known, in sentences")
+    notes: list[str] = Field(
+        [], description="How it is known, in sentences, without those of a certificate beside them"
+    )
     engines: Judged | None = Field(None, description="Verdicts of the engines; null without any")
 
 
@@ -203,12 +195,11 @@ def contact_words(
     state = "fold" if folds else "drawn" if is_drawn and contact.outcome is Outcome.CLEAR else contact.outcome.value
     time = contact.time if end is None else end.time
     headline, exact = (near.worded(state, time="" if time is None else _digits(time, few)) for few in (2, 6))
-    facts, notes, least = [], [contact.certificate.method], contact.certificate.least_clearance
+    facts, least = [], contact.certificate.least_clearance
     if least is not None:
         gap, when = _digits(1000.0 * least.clearance, 3), f"{least.time:.6f}"
         facts = [(say("Narrowest graze"), near.worded("graze", gap=gap, time=when, **near.pair(least.benches)))]
-    if check is None:
-        notes.append(say("No pair to cross-check."))
+    notes = [] if check else [say("No pair to cross-check.")]
     meeting, ends = None, [say("The dance is shown as far as it is proven clear.")]
     if contact.benches is not None:
         ends, pair = [near.worded("end")], str(Listed(near.names(contact.benches)))
@@ -316,5 +307,4 @@ def stray_words(result: core.Tolerance) -> Words:
         headline=headline,
         exact=exact,
         facts=[_bracket(both, (100.0 * low, 100.0 * (high or 0.0)), 7)],
-        notes=[result.certificate.method],
     )

@@ -102,7 +102,7 @@ def test_the_first_view_shows_the_contact_its_proof_its_limits_and_how_every_ans
             "#first-contact": [*answer["sentences"], answer["certificate"]["method"]],
             "#first-contact tbody tr": len(answer["cross_check"]["engines"]),
             "#first-contact caption": "judged all 223 benches. They agree.",
-            "#inset figcaption": ["gap 0.000 mm", "front outer corner of the head meets inner edge of body 8"],
+            "#inset figcaption": ["gap 0.000 mm", "front-outer corner of the head meets inner edge of body 8"],
             "#minimum-pitch .value": f"{least['pitch']:.9f} m",
             "#minimum-pitch dl": [
                 f"from {bounded(least['proven_from'], 9)} m on, without limit",
