@@ -45,6 +45,8 @@ JOINT_GAP = 1e-9
 JOINT_KINK = 1e-9
 # Least angle of a corner that no bench can follow [rad]: it would have to walk backwards out of it.
 CORNER_END = 0.5 * math.pi
+# Kink |T' - T| from which on a corner may have that angle and is measured [1].
+CORNER_LOOK = 1.4
 # Part by which the jump of a tangent counts as larger, for its rounding [1].
 JUMP_SPARE = 1e-14
 # Columns of the curvatures of a piece.
@@ -118,11 +120,16 @@ class Route(Readable):
         grows = isinstance(first, Clothoid) and first.grows
         self.calm_beginning = inwards or grows or isinstance(first, Line | Arc)
         self._lay_corners([row for _, row in joints[1:]])
-        self.slide = self._smooth()
+        misses = np.zeros((len(self.table), kernels.MISS_COLUMNS))
+        kernels.joint_misses(self.table, misses)
+        gap, kink = misses[:, kernels.MISS_ACROSS] + misses[:, kernels.MISS_ALONG], misses[:, kernels.MISS_KINK]
+        doubtful = (gap > JOINT_GAP) | (kink > JOINT_KINK) & ~((0.0 < self.table[:, CORNER]) & (kink < CORNER_LOOK))
+        self.slide = self._smooth(misses)
         self.table.flags.writeable = False
         self.followed: dict[bytes, Any] = {}
         for k, (s, row) in enumerate(joints[1:], start=1):
-            self._refuse_joint(k, s, row)
+            if doubtful[row]:
+                self._refuse_joint(k, s, row)
 
     def _lay_corners(self, rows: list[int]) -> None:
         """Fill in the corners at the beginnings of rows."""
@@ -141,10 +148,9 @@ class Route(Readable):
     # 10 g / l^2 + 6 k / l + 3 d, its third within 60 g / l^3 + 36 k / l^2 + 9 d / l. A piece may have one at both ends,
     # hence twice that. A curve at some distance beside a piece has more curvature, by the square of the curvature times
     # the distance. Gaps along the path displace only the head.
-    def _smooth(self) -> float:
+    def _smooth(self, misses: Floats) -> float:
         """Fill in the distance of the pieces from a smooth path; returns `slide` [m]."""
-        table, misses, slides = self.table, np.zeros((len(self.table), kernels.MISS_COLUMNS)), np.zeros(len(self.table))
-        kernels.joint_misses(table, misses)
+        table, slides = self.table, np.zeros(len(self.table))
         kernels.piece_slides(table, slides)
         across, along, kink, step = misses[1:].T
         corner = table[1:, CORNER] > 0.0
@@ -183,7 +189,7 @@ class Route(Readable):
             words, why = "the joint of {before} and {after} must be smooth", "at {at} the direction turns by {kink}"
             raise InvalidValue.in_words(name, words, reason=why, **values)
 
-    @property
+    @cached_property
     def corners(self) -> Floats:
         """s of every corner (N,) [m]."""
         corners: Floats = self.table[self.table[:, CORNER] > 0.0, S_START]

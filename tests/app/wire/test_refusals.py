@@ -242,6 +242,10 @@ BODIES = {
     'check {"cross_check": null}': "/cross_check",
     'check {"start_clock": "19:30", "begin_clock": "19:31"}': "/begin_clock start_clock",
     'check {"path": TIGHT}': "/path/turning_diameter",
+    'check {"path": {"kind": "waypoints", "straight": [0, 1, 2, 3, 4], "radius": 0, "points": [[0, 0], [60, 0], '
+    '[60.5, 0.5], [60.2, 0.9], [59.8, 0.6], [60.3, -30]]}, "dragon": {"benches": 9}}': "/path 60.7071 backwards",
+    'check {"path": {"kind": "route", "pieces": [LANE, {"kind": "arc", "centre": [60, 0.001], "radius": 0.001, '
+    '"start_angle": -1.5707963267948966, "sweep": 6.0}]}, "dragon": {"benches": 9}}': "/path 60.0016 backwards",
     'check {"path": {"kind": "turn", "ratio": 20}}': "/path/ratio 20",
     'check {"path": {"kind": "turn", "entry_radius": 2}}': "/path/entry_radius",
     'check {"path": {"kind": "turn"}, "dragon": {"lengths": [4], "widths": [0.3], "overhangs": [0]}}': (
@@ -469,6 +473,7 @@ PATHS = {
     '{"kind": "route", "pieces": [LANE, {"kind": "arc", "centre": [60.1, 20], BEND}]}': "/pieces/1 0.1",
     '{"kind": "route", "pieces": [LANE, {"kind": "arc", "centre": [60, 20.1], BEND}]}': "/pieces/1 close",
     '{"kind": "route", "pieces": [LANE, {"kind": "line", "start": [60, 0], "end": [60, 9]}]}': "/pieces/1 90",
+    '{"kind": "waypoints", "points": [[0, 0], [60, 0], [30, 0]], "straight": [0, 1], "radius": 0}': "/points/1 180",
     '{"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [0, 0]}]}': "/pieces/0 1e-06 0",
     '{"kind": "route", "pieces": [{"kind": "arc", "centre": [0, 0], "radius": 9, "start_angle": 0, "sweep": 0}]}': (
         "/pieces/0 0"
