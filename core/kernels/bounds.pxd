@@ -1,7 +1,7 @@
 cimport cython
 from core.kernels.arrays cimport Pieces, Rows
 from core.kernels.constants cimport *
-from core.kernels.corners cimport bench_has_corner, cornered_link, jumped
+from core.kernels.corners cimport bench_has_corner, cornered_link, jumped, passes_corner
 from core.kernels.records cimport Cosines, LinkBounds, Stretch
 from core.kernels.spiral cimport spiral_curvature
 from core.kernels.stretches cimport blur_of, link_stretch, parts_between

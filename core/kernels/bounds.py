@@ -5,7 +5,7 @@ from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
-    from core.kernels.corners import bench_has_corner, cornered_link, jumped
+    from core.kernels.corners import bench_has_corner, cornered_link, jumped, passes_corner
     from core.kernels.records import Cosines, LinkBounds
     from core.kernels.rounding import spiral_rounding
     from core.kernels.spiral import spiral_curvature
@@ -256,9 +256,6 @@ def bound_climb(k, h, stretch, cosines, before, after, motion):
     second_b = motion[k + 1, RATE_RATE]
     turned = max(fabs(before[k + 1, CLIMB]), fabs(after[k + 1, CLIMB]))
     error_a = motion[k, RATE_ERROR]
-    if motion[k + 1, CROSSED] >= CORNER_PARTS:  # the rates at both ends may be those of either side of the corner
-        motion[k + 1, RATE_ERROR] = motion[k + 1, CLIMB_ERROR] = FREE
-        return
     error_b = (error_a * cosines.front_high + 2.0 * stretch.blur * rate_b) / cosines.rear_low
     climb_error = motion[k, CLIMB_ERROR]
     widened = stretch.widened * (rate_a * rate_a + rate_b * rate_b)
@@ -299,6 +296,8 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
     motion[0, RATE_HIGH] = rate_low = 1.0
     motion[0, RATE_RATE] = motion[0, RATE_ERROR] = motion[0, CLIMB_ERROR] = 0.0
     motion[0, CROSSED] = parts_between(pieces, 0, before, after)
+    if cornered:
+        passes_corner(pieces, 0, before, after, motion)
     for k in range(benches):
         stretch = link_stretch(pieces, k, benches, sizes, before, after)
         high = stretch.high
@@ -346,7 +345,8 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
         motion[k + 1, RATE_JERK] = third_a = third_b
         if climbing:
             motion[k + 1, CROSSED] = motion[k, CROSSED] + parts_between(pieces, k + 1, before, after)
-            bound_climb(k, h, stretch, cosines, before, after, motion)
+            if not cornered or not passes_corner(pieces, k + 1, before, after, motion):
+                bound_climb(k, h, stretch, cosines, before, after, motion)
         rate_low = TIGHTEN * rate_low * cosines.front_low / cosines.rear_high
     return True
 

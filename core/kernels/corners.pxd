@@ -28,6 +28,9 @@ cdef LinkBounds cornered_link(
 ) noexcept nogil
 
 @cython.locals(first=cython.Py_ssize_t, last=cython.Py_ssize_t)
+cdef bint passes_corner(Pieces pieces, Py_ssize_t k, Rows before, Rows after, Rows motion) noexcept nogil
+
+@cython.locals(first=cython.Py_ssize_t, last=cython.Py_ssize_t)
 cdef double jumped(
     Pieces pieces, Py_ssize_t k, double rate_a, double rate_b, Rows before, Rows after
 ) noexcept nogil

@@ -124,6 +124,18 @@ def cornered_link(pieces, k, h, stretch, rate_a, before, after):
     return LinkBounds(front, rear, 1.0, rate_b, 0.0, omega, 0.0, swing_a, swing_b, True, bounded)
 
 
+def passes_corner(pieces, k, before, after, motion):
+    """Whether handle k or one before it passes a corner during an interval, which CROSSED then says; its rates at both
+    ends, which may be those of either side of the corner, then bound nothing in between."""
+    first, last = passed_pieces(pieces, k, before, after)
+    if corners_between(pieces, first, last) > 0.0:
+        motion[k, CROSSED] += CORNER_PARTS
+    if motion[k, CROSSED] < CORNER_PARTS:
+        return False
+    motion[k, RATE_ERROR] = motion[k, CLIMB_ERROR] = FREE
+    return True
+
+
 def jumped(pieces, k, rate_a, rate_b, before, after):
     """A J_a + B J_b of bench k over an interval [1]."""
     first, last = passed_pieces(pieces, k, before, after)

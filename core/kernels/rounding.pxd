@@ -18,6 +18,6 @@ cdef (double, double, double, double, double) piece_end(
 @cython.locals(p=cython.Py_ssize_t, q=cython.Py_ssize_t)
 cpdef void joint_misses(Pieces pieces, Rows out) noexcept
 cpdef void piece_slides(Pieces pieces, double[::1] out) noexcept
-@cython.locals(k=cython.Py_ssize_t)
+@cython.locals(k=cython.Py_ssize_t, cornered=cython.bint)
 cpdef void route_rounding(Pieces pieces, Py_ssize_t last, Rows sizes, Rows chain) noexcept nogil
 cdef double chain_spot(Pieces pieces, Py_ssize_t k, Rows chain) noexcept nogil

@@ -241,6 +241,7 @@ def route_rounding(pieces, last, sizes, chain):
     first = cython.cast(cython.Py_ssize_t, chain[0, FILLED])
     spot = chain_spot(pieces, first, chain)
     sharpest = pieces[0, SHARPEST] + pieces[0, CURVATURE_SLACK]
+    cornered = pieces[0, CORNERED] > 0.0
     for k in range(first, last):
         chord = sizes[k, CHORD]
         inverse = max(1.0 / chord, 0.5 * sharpest)
@@ -249,7 +250,7 @@ def route_rounding(pieces, last, sizes, chain):
         spots += spot
         slope = 1.0 / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
         ratio = (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY]) * slope
-        if pieces[0, CORNERED] > 0.0:  # the tangents of both sides, and an angle of u that may be any
+        if cornered:  # the tangents of both sides, and an angle of u that may be any
             rear, _ = sided_cosines(pieces, k + 1, k, chain)
             _, front = sided_cosines(pieces, k, k, chain)
             slope = max(slope, 1.0 / rear) if rear > 0.0 else FREE
@@ -262,7 +263,7 @@ def route_rounding(pieces, last, sizes, chain):
         if k > 0:
             chain[k, ERROR] = max(chain[k, ERROR], chain[k - 1, ERROR])
         chain[k, SWAY] = swayed(k, chain, ratio, local, spots, inverse)
-        if pieces[0, CORNERED] > 0.0:
+        if cornered:
             chain[k, SWAY] += (1.0 + ratio) * chain[k, SLIP] * inverse
             if chain[k + 1, SLIP] > CORNER_NEAR:
                 chain[k + 1, SLIP] = FREE

@@ -214,7 +214,7 @@ def extend_route(pieces, first, last, until, sizes, chain):
     """
     alike = 0
     d1 = d2 = d3 = d4 = d5 = 0.0
-    sharpest = 0.5 * pieces[0, SHARPEST]
+    sharpest = 0.5 * pieces[0, SHARPEST] if pieces[0, CORNERED] == 0.0 else FREE
     for k in range(first, last):
         if chain[k, PLACE] >= until:
             return k
@@ -222,7 +222,7 @@ def extend_route(pieces, first, last, until, sizes, chain):
         p = cython.cast(cython.Py_ssize_t, chain[k, PIECE])
         chord = sizes[k, CHORD]
         same = k > 0 and sizes[k - 1, CHORD] == chord
-        tight = sharpest * chord > ROUTE_SINE_LIMIT or pieces[0, CORNERED] > 0.0
+        tight = sharpest * chord > ROUTE_SINE_LIMIT
         step = chain[k, PLACE] - chain[k - 1, PLACE] if same else chord
         if pieces[p, PIECE_KIND] == LINE:
             step = chord

@@ -1,7 +1,6 @@
 cimport cython
 from core.kernels.arrays cimport Pieces, Rows
 from core.kernels.constants cimport *
-from core.kernels.corners cimport corners_between, passed_pieces
 from core.kernels.records cimport Stretch
 
 cdef double ROUTE_TURN

@@ -5,7 +5,6 @@ from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
-    from core.kernels.corners import corners_between, passed_pieces
     from core.kernels.records import Stretch
 
 # Largest angle by which a handle displaced along a route turns its bench, times SLIP / chord [1]: see the rounding of
@@ -80,11 +79,7 @@ def stretch_slope(pieces, k, rear, front, before, after):
 
 
 def parts_between(pieces, k, before, after):
-    """Number of parts of the route by which handle k advances from the first chain to the second; see CROSSED."""
-    if pieces[0, CORNERED] > 0.0:
-        first, last = passed_pieces(pieces, k, before, after)
-        if corners_between(pieces, first, last) > 0.0:
-            return CORNER_PARTS
+    """Number of parts of the route by which handle k advances from the first chain to the second."""
     rear = cython.cast(cython.Py_ssize_t, before[k, PIECE])
     front = cython.cast(cython.Py_ssize_t, after[k, PIECE])
     return pieces[front, PART] - pieces[rear, PART]

@@ -123,7 +123,7 @@ class Route(Readable):
         misses = np.zeros((len(self.table), kernels.MISS_COLUMNS))
         kernels.joint_misses(self.table, misses)
         gap, kink = misses[:, kernels.MISS_ACROSS] + misses[:, kernels.MISS_ALONG], misses[:, kernels.MISS_KINK]
-        doubtful = (gap > JOINT_GAP) | (kink > JOINT_KINK) & ~((0.0 < self.table[:, CORNER]) & (kink < CORNER_LOOK))
+        doubtful = (gap > JOINT_GAP) | (kink > JOINT_KINK) & ~((self.table[:, CORNER] > 0.0) & (kink < CORNER_LOOK))
         self.slide = self._smooth(misses)
         self.table.flags.writeable = False
         self.followed: dict[bytes, Any] = {}
