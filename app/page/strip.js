@@ -117,7 +117,8 @@ export class Strip {
     } catch (error) {
       if (error instanceof Superseded) return;
       if (!(error instanceof Problem)) throw error;
-      card.replaceChildren(title, make("p", { className: "error", textContent: error.problem.sentence }));
+      if (further) announceRefusal(error);
+      else card.replaceChildren(title, make("p", { className: "error", textContent: error.problem.sentence }));
     }
     card.setAttribute("aria-busy", false);
   }
