@@ -47,7 +47,7 @@ export class Challenge {
     const best = this.#best.pitch;
     const least = answers.minimum?.answer.pitch;
     const tightest = least && best - least < NEAR ? say("You are at the limit: from {least} m on, every wider spiral gets there.", { least: bound(least, DECIMALS, 1) }) : "";
-    const now = gets ? say("At {pitch} m it gets there.", { pitch: fixed(pitch, DECIMALS) }) : far > 0 ? say("At {pitch} m they touch {far} m before.", { pitch: fixed(pitch, DECIMALS), far: fixed(far, 2) }) : "";
+    const now = gets ? say("At {pitch} m it gets there.", { pitch: fixed(pitch, DECIMALS) }) : far > 0 ? say("At {pitch} m they touch while the head is {far} m outside the circle.", { pitch: fixed(pitch, DECIMALS), far: fixed(far, 2) }) : "";
     const record = best < Infinity ? say("Your tightest: {pitch} m.", { pitch: fixed(best, DECIMALS) }) : "";
     this.words.textContent = sentencesOf([now, gets && best === pitch ? tightest || say("Tighter?") : record]);
     hide(this.card, !gets || best !== pitch);

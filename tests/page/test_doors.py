@@ -98,9 +98,8 @@ def test_who_just_looks_is_asked_for_the_tightest_spiral_and_gets_a_card_of_it(o
     person = open_page("?door=look&lang=en&time=end").sees({"#challenge-words": "At 0.5500 m it gets there. Tighter?"})
     person.types({"#pitch": "0.4502"}, "Tab")
     gone = polite.answer(server, "collision-time", pitch=0.4502)["head"]["radius"] - 4.5
-    person.sees(
-        {"#challenge-words": f"they touch {gone:.2f} m before. Your tightest: 0.5500 m", "#challenge-card": False}
-    )
+    words = f"they touch while the head is {gone:.2f} m outside the circle. Your tightest: 0.5500 m"
+    person.sees({"#challenge-words": words, "#challenge-card": False})
     person.types({"#pitch": "0.4504"}, "Tab").sees(
         {"#challenge-words": "from 0.4504 m on, every wider spiral gets there"}
     )
