@@ -32,8 +32,16 @@ export function colours(element = document.documentElement) {
 
 /** The two sizes of type in pictures, as those of the page [px]. */
 export const [SMALL_TYPE, USUAL_TYPE] = [13.12, 15];
+/** Size of the chosen type as a share of the usual one [1]; 0 until it is read, once for all names of a picture. */
+let type = 0;
 /** A length in the usual size of the type in the chosen one [px]. */
-export const inType = (pixels) => (pixels * Number.parseFloat(getComputedStyle(document.documentElement).fontSize)) / 16;
+export function inType(pixels) {
+  if (!type) {
+    type = Number.parseFloat(getComputedStyle(document.documentElement).fontSize) / 16;
+    queueMicrotask(() => (type = 0));
+  }
+  return pixels * type;
+}
 
 /** Show or hide an element only on a change, because each assignment makes the browser compute all styles again. */
 export function hide(element, hidden) {

@@ -402,9 +402,11 @@ export class Propose {
     hide(this.box, !isRoute);
     this.#showStart(isRoute);
     const [label, help] = STRAY[String(this.state.get("door") === "village")];
-    $("label[for=stray]").dataset.text = label;
-    $("#stray-help").dataset.text = help;
-    writeTexts();
+    if ($("#stray-help").dataset.text !== help) {
+      $("label[for=stray]").dataset.text = label;
+      $("#stray-help").dataset.text = help;
+      writeTexts();
+    }
     if (!isRoute) return;
     this.#showSizes(yardOf(drawing));
     hide(this.cut, this.shape.value === "rectangle");

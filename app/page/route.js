@@ -6,7 +6,7 @@ import { button, hide, make, numberIn, textButton } from "./elements.js";
 import { chooseHow } from "./opening.js";
 import { laterBy, passagesText, wayAt } from "./passages.js";
 import { PRESETS, PRESET_NAMES, announceReplaced, isPresetVenue, shownAt } from "./presets.js";
-import { phrase, say } from "./text.js";
+import { language, phrase, say } from "./text.js";
 
 /** The number in a field; null if there is none. */
 function read(field) {
@@ -196,6 +196,11 @@ export class RouteForm {
   /** Show the numbers of thing k in a row of fields. */
   fill(row, k) {
     const thing = this.#drawing.things[k];
+    const isPressed = this.editor.item === k || this.editor.others.includes(k);
+    // Hundreds of trees stand still while one is dragged; what is typed may differ from what is shown.
+    const shown = [thing, isPressed, language()];
+    if (row.shown?.every((one, at) => one === shown[at])) return;
+    row.shown = this.refused || document.activeElement?.matches("input, select") ? null : shown;
     const { name, kind, radius, heading, points } = thing;
     put(row.name, name);
     put(row.radius, radius ?? "");
@@ -211,7 +216,7 @@ export class RouteForm {
     row.at.forEach((field, axis) => put(field, points[0]?.[axis] ?? ""));
     hide(row.places, points.length !== 1);
     row.edit.textContent = say(THINGS[kind]);
-    row.edit.setAttribute("aria-pressed", this.editor.item === k || this.editor.others.includes(k));
+    row.edit.setAttribute("aria-pressed", isPressed);
     row.edit.setAttribute("aria-label", say("Edit {name}", { name }));
     row.remove.setAttribute("aria-label", say("Remove {name}", { name }));
   }
