@@ -39,9 +39,9 @@ export const leftWords = (left) => (left.length ? [say("Your square stays; these
 /** What the next proposed dance is wished for, in a FILE; and the same of a FILE as texts of the state. */
 export function wishesIn(state) {
   const { ends, laps } = state.texts(["ends", "laps"]);
-  return ends || laps ? { wishes: { ...(ends && { ends }), ...(laps && { laps }) } } : {};
+  return ends || laps ? { wishes: { ...(ends && { end_by: ends }), ...(laps && { laps }) } } : {};
 }
-export const wishesOf = (/** @type {any} */ { wishes }) => ({ ends: wishes?.ends ?? "", laps: wishes?.laps ?? "" });
+export const wishesOf = (/** @type {any} */ { wishes }) => ({ ends: wishes?.end_by ?? "", laps: wishes?.laps ?? "" });
 
 export class Files {
   /**

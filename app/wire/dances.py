@@ -244,7 +244,7 @@ class PathFields(HeadSpeed, DragonFields, strict=True):
 class Wishes(Wire, strict=True):
     """What a dance was wished for on the page when it was proposed, as typed there."""
 
-    ends: str | None = Field(None, max_length=40, description="When it must end: a time of day, or minutes")
+    end_by: str | None = Field(None, max_length=40, description="When it must end: a time of day, or minutes")
     laps: str | None = Field(None, max_length=40, description="How often it goes around")
 
 
