@@ -69,7 +69,7 @@ def test_a_rubric_reads_as_it_is_written():
 
 def test_of_two_files_for_one_workbook_the_better_counts():
     worse = Row("Red", "old.xlsx", "result1", Rating.WRONG, 10, 1, 0)
-    assert team_points([worse, row("Red", ""), worse], rubric_of("")) == {"Red": 40.0}
+    assert team_points([worse, row("Red", ""), worse], rubric_of("")) == [("Red", 40.0)]
 
 
 def test_only_equal_bytes_of_two_teams_are_pointed_out_and_no_blank_form():
