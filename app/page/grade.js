@@ -56,7 +56,7 @@ export class Grader {
   translate(language) {
     const changed = this.#language !== null && this.#language !== language;
     this.#language = language;
-    if (changed && this.#answers.length) this.#grade();
+    if (changed && (this.#working || this.#answers.length)) this.#grade();
   }
 
   show() {
