@@ -15,7 +15,8 @@ from app.wire.benches import bench_table
 from core import Dragon
 from core.proposal.designs import street_length
 from core.proposal.needs import Needs
-from tests.support.node import chinese_texts, evaluate
+from tests.support import polite
+from tests.support.node import evaluate
 
 pytestmark = pytest.mark.node
 TABLES = [
@@ -64,21 +65,25 @@ def test_the_page_reads_every_address_of_a_dance_in_its_short_form():
     assert read == [*queries[:4], "?&walk=1"]
 
 
-def test_every_value_of_a_map_has_its_own_name_in_chinese():
+def test_every_value_of_a_map_has_its_own_name_in_each_language(server):
     names = set()
     for question in (question_of(name, ["benches"]) for name in QUESTIONS):
         columns = answer_columns(question.answer, question.left_out)
         names |= {one.name for one in columns if one.kind in (int, float) and not one.as_json}
     assert len(names) > 50
-    script = """async (names, texts) => {
+    script = """async (names, labels) => {
       const [{ setLanguage, teach }, { columnName }] = await Promise.all(["text.js", "columns.js"].map(page));
-      teach("zh", texts);
-      setLanguage("zh");
-      return names.map(columnName);
+      return Object.entries(labels).map(([lang, texts]) => {
+        teach(lang, texts);
+        setLanguage(lang);
+        return names.map(columnName);
+      });
     }"""
-    words = evaluate(script, sorted(names), chinese_texts())
-    assert [one for one in words if re.search("[a-z]{4}|_", one)] == []
-    assert len(set(words)) == len(words)
+    labels = {lang: polite.answer(server, f"page/words/{lang}-columns.json") for lang in ("en", "zh")}
+    english, chinese = evaluate(script, sorted(names), labels)
+    assert [one for one in english if "_" in one] == []
+    assert [one for one in chinese if re.search("[a-z]{4}|_", one)] == []
+    assert len(set(english)) == len(set(chinese)) == len(names)
 
 
 def test_a_route_takes_the_numbers_that_the_service_takes():

@@ -8,12 +8,9 @@ import sys
 from functools import cache
 from pathlib import Path
 
-from babel.messages.pofile import read_po
-
 from tests.support.browser import version_of
 
 PAGE = Path(__file__).parents[2] / "app" / "page"
-CATALOGUE = Path(__file__).parents[2] / "core" / "words" / "zh_CN.po"
 OLDEST = (22, 7)  # the first that takes a module of the page for what it is
 MISSING = (
     "they run modules of the page in Node.js: make test-setup installs it, else apt install nodejs (22.7 or later)"
@@ -38,12 +35,6 @@ def node_path():
         if found and tuple(map(int, found.groups())) >= OLDEST:
             return program
     return None
-
-
-def chinese_texts():
-    """English template -> Chinese text, as the page learns them."""
-    with CATALOGUE.open("rb") as file:
-        return {message.id: message.string for message in read_po(file) if isinstance(message.id, str)}
 
 
 def evaluate(function, *values):
