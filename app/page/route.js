@@ -17,7 +17,7 @@ function read(field) {
 const textElement = (tag, words, properties = {}) => make(tag, { ...properties, "data-text": words, textContent: say(words) });
 const labelled = (tag, words, properties = {}) => make(tag, { ...properties, "data-label": words, "aria-label": say(words) });
 /** Least and largest numbers of the fields, as the service takes them. */
-export const LIMITS = { pointX: [-1e5, 1e5], pointY: [-1e5, 1e5], speedLimit: [0.001, 100], pathBegin: [-1e6, 1e6], latitude: [-90, 90], longitude: [-180, 180], cornerRadius: [0.001, 1e4], thingRadius: [0.001, 1e4], gateHeading: [-360, 360], street_width: [0.1, 1e4], street_length: [0.1, 1e4] };
+export const LIMITS = { pointX: [-1e5, 1e5], pointY: [-1e5, 1e5], speedLimit: [0.001, 100], pathBegin: [-1e6, 1e6], latitude: [-90, 90], longitude: [-180, 180], cornerRadius: [0, 1e4], thingRadius: [0.001, 1e4], gateHeading: [-360, 360], street_width: [0.1, 1e4], street_length: [0.1, 1e4] };
 /** Sizes of the street of a gate, and what a gate is for. @type {Phrases} */
 const USES = { "": "in and out", in: "way in", out: "way out" };
 const STREET = ["street_width", "street_length"];
