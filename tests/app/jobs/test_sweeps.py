@@ -61,7 +61,7 @@ def test_the_result_is_the_table_of_the_same_sweep_in_each_form(service, tmp_pat
     expected.to_csv(tmp_path / "a.csv")
     addresses = {form: service.post(SPEC | {"accept": form}, "/sweeps") for form in (CSV_TYPE, JSON, PARQUET_TYPE)}
     as_parquet = addresses[PARQUET_TYPE]
-    status = service.finished(as_parquet)  # The last one.
+    status = [service.finished(address) for address in addresses.values()][-1]
     assert [status[name] for name in ("status", "processID", "done", "total")] == ["successful", "sweep", 40, 40]
 
     def taken(address, form):
