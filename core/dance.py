@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
 from itertools import pairwise
@@ -34,7 +34,7 @@ from core.errors import (
 )
 from core.language import phrase
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Period, checked_passages, nodes
-from core.paths.following import earliest_travel
+from core.paths.following import bends_widely, earliest_travel
 from core.paths.refusal import refuse_tight_bends
 from core.paths.route import Route
 from core.paths.spiral import Spiral, end_theta
@@ -208,6 +208,13 @@ class Dance(Readable):
         """The same dance without passages, its path in its own frame: the same contacts, at clock.steady() times."""
         path = self.path.standard
         return Dance(self.dragon, path, self.head_speed) if self.passages or path is not self.path else self
+
+    def leading(self, benches: int) -> Dance:
+        """The dance of the first benches, which those behind do not affect. The whole dance on a path with tight bends:
+        fewer benches begin before bends where those have passed."""
+        if self.path.spiral is None and not bends_widely(self.dragon, self.path.as_route(self.path.end)):
+            return self
+        return replace(self, dragon=self.dragon.leading(benches))
 
     def steady_times(self, times: Floats) -> Floats:
         """Times (...) at which the steady dance is at the same places [s]; always inside its run, despite rounding."""

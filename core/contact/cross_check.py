@@ -209,7 +209,7 @@ def contact_check(contact: FirstContact, *, whole: bool = True, budget: Budget |
     travel = max(CHECK_TRAVEL, rounding) / head_speed
     times = [first if at_start else first - travel, last + travel]
     if not whole:  # A bench does not affect those in front of it.
-        dance = replace(dance, dragon=dragon.leading(contact.benches[1] + 1))
+        dance = dance.leading(contact.benches[1] + 1)
     poses = judged_poses(dance, times, budget)
     size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: poses.shape[1]]
     pair = contact.benches

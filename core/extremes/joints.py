@@ -71,8 +71,7 @@ def sharpest_bend(
         return None
     count = 3 + int((until - begin) * dance.head_speed / (PROFILE_STEP * dragon.chords.min()))
     grid = np.linspace(begin, until, min(count, SAMPLES))
-    leading = dragon.uniform_from + 2
-    front = replace(dance, dragon=dragon.leading(leading))
+    front = dance.leading(dragon.uniform_from + 2)
     bends = [_sharpest(dance, grid[: _opened(dance, grid, budget)], budget), _sharpest(front, grid, budget)]
     largest = max(bend.angle for bend in bends)
     bend = min((bend for bend in bends if bend.angle >= largest - 2.0 * SAME_ANGLE), key=lambda bend: bend.time)

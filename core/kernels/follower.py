@@ -68,7 +68,7 @@ class Follower:
         self.chord = chord
         self.least = least
         self.spare = SPARE + pieces[0, LOOSE]
-        self.reached = self.rear = 0.0
+        self.reached = self.rear = -FREE
         self.rear_cosine = self.front_cosine = 1.0
         self.longest = chord
         self.work = 0.0

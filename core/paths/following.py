@@ -137,22 +137,27 @@ def least_radius(chord: float) -> float:
 # places from which a bench reaches over them, need a proof: elsewhere the chord lemma serves (core/kernels/bounds.py).
 def following(dragon: Dragon, path: Route) -> Following:
     """How a dragon follows a route, remembered with the route."""
-    alike = dragon.uniform_from + 1
-    key = dragon.chords[:alike].tobytes()
+    key = dragon.chords[: dragon.uniform_from + 1].tobytes() + dragon.benches.to_bytes(8)
     if key not in path.followed:
-        path.followed[key] = _followed(dragon.chords[:alike], path)
+        path.followed[key] = _followed(dragon, path)
     found: Following = path.followed[key]
     return found
 
 
-def _followed(chords: Floats, path: Route) -> Following:
+def _followed(dragon: Dragon, path: Route) -> Following:
+    chords = dragon.chords[: dragon.uniform_from + 1]
     arc, rear, front = ARC_MOST * float(chords.max()), 1.0, 1.0
     obstacles: list[Obstacle] = []
     kinds, firsts = np.unique(chords, return_index=True)
-    for bench, chord in sorted(zip(firsts.tolist(), kinds.tolist(), strict=True)):
+    # From the front handle of each bench to the last handle: chords span at least as much of the path [m].
+    behind = np.cumsum(dragon.chords[::-1])[::-1]
+    for first, chord in sorted(zip(firsts.tolist(), kinds.tolist(), strict=True)):
         proof = kernels.Follower(path.table, chord, REAR_COSINE_LEAST)
-        end = _front_most(chords, bench, path)
+        end = _front_most(chords, first, path)
         earliest, proven = _first_front(path, chord), -math.inf
+        alike = behind[dragon.chords == chord]
+        if path.tail_begin is not None:
+            earliest = max(earliest, path.tail_begin + float(alike[-1]))
         for start, stop in _tight_parts(path, least_radius(chord)):
             begin = max(start, earliest, proven)
             if begin < end and stop > proof.rear:
@@ -160,6 +165,10 @@ def _followed(chords: Floats, path: Route) -> Following:
                 if len(path.corners) and ended is Follows.PROVEN:
                     proven = proof.reached
                 if ended is not Follows.PROVEN:
+                    # The first bench that surely comes there from behind, or else the last one.
+                    room = proof.reached - (path.begin if path.tail_begin is None else path.tail_begin)
+                    among = min(int((ARC_MOST * alike > room).sum()), alike.size - 1)
+                    bench = int(np.flatnonzero(dragon.chords == chord)[among])
                     obstacles.append(_obstacle(bench, chord, path, proof, Hindrance[ended.name]))
         arc, rear, front = max(arc, proof.longest), min(rear, proof.rear_cosine), min(front, proof.front_cosine)
         if obstacles:  # where this bench stops, those behind it do too

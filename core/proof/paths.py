@@ -48,10 +48,7 @@ def recorded_path(path: Spiral | Route) -> dict[str, Any]:
         free = path.exit_radius != path.entry_radius
         names = (*(name for name in (FREE_TURN if free else TURN) if name != "start_turns"), "start_turns")
         return {"kind": "free_turn" if free else "turn"} | {name: getattr(path, name) for name in names}
-    if len(path.corners):
-        rule = "path must be smooth at {at}, where it has a corner, for a proof in ball arithmetic"
-        why = "on such a path a dance is checked in double precision, with bounds on its rounding"
-        raise InvalidValue.in_words("path", rule, reason=why, at=Quantity(float(path.corners[0]), "m", 6))
+    _refuse_corners(path)
     recorded = []
     for k, piece in enumerate(path.pieces):
         if not isinstance(piece, pieces.Line | pieces.Arc | pieces.Coil):
@@ -93,7 +90,17 @@ def core_path(record: Record) -> Spiral | Route:
             parts.append(made(**values))
         except InvalidValue as error:  # a piece does not name the route around its fields
             raise error.with_field(".".join([f"path.pieces.{k}", *error.field.split(".")[1:]])) from error
-    return Route(parts, record["start"])
+    route = Route(parts, record["start"])
+    _refuse_corners(route)
+    return route
+
+
+def _refuse_corners(path: Route) -> None:
+    """raises: InvalidValue for a path with a corner, which its pieces would lose when they are joined smoothly"""
+    if len(path.corners):
+        rule = "path must be smooth at {at}, where it has a corner, for a proof in ball arithmetic"
+        why = "on such a path a dance is checked in double precision, with bounds on its rounding"
+        raise InvalidValue.in_words("path", rule, reason=why, at=Quantity(float(path.corners[0]), "m", 6))
 
 
 def path_words(record: Record) -> str:

@@ -29,7 +29,9 @@ def cornered_route(rng, dragon):
     headings = np.cumsum([0.0, *(sides * rng.uniform(0.2, 1.46, corners))])
     lengths = [way, *(chord * 10.0 ** rng.uniform(-0.7, 0.6, corners - 1)), way]
     points = np.cumsum([-way, *(lengths * np.exp(1j * headings))])
-    return Legs([(point.real, point.imag) for point in points], range(corners + 1), radius=0.0, start=way)
+    # s = 0 before, between and beyond the corners.
+    start = float(rng.choice([way - 1.0, way, way + sum(lengths[1:-1]) * rng.uniform(), sum(lengths[:-1]) + 1.0]))
+    return Legs([(point.real, point.imag) for point in points], range(corners + 1), radius=0.0, start=start)
 
 
 def handles_fault(dance, slow):

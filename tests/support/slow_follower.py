@@ -112,6 +112,6 @@ def twisted(rng, run_up):
         else:
             pen.clothoid(*rng.uniform(-1.2, 1.2, 2), rng.uniform(0.3, 2.5))
     try:
-        return Route(pen.pieces)
+        return Route(pen.pieces, run_up + rng.choice([-run_up, rng.uniform(0.0, 4.0)]))
     except InvalidValue:
         return None

@@ -1,5 +1,7 @@
 """A dragon on a route: bends that are too tight for a chord, and room for the whole dragon."""
 
+import math
+
 import pytest
 
 from core import (
@@ -7,6 +9,7 @@ from core import (
     Dance,
     Dragon,
     InvalidValue,
+    Judgement,
     Legs,
     Line,
     OutsideRun,
@@ -102,3 +105,23 @@ def test_the_last_bench_meets_the_bend_that_the_others_can_follow():
     assert follows(Dragon(1, 1.2, overhang=0.1), route)
     [obstacle] = following(Dragon(3, 1.2, 2.2, overhang=0.1), route).obstacles
     assert obstacle.bench == 1
+
+
+U_TURN = [Arc((8.0, 0.9), 0.9, -0.5 * math.pi, math.pi), Line((8.0, 1.8), (-80.0, 1.8))]
+
+
+@pytest.mark.parametrize("start", [0.0, 8.0, 9.0, 11.0])
+def test_bends_before_and_beyond_place_zero_are_looked_at(start):
+    route = Route([Line((0.0, 0.0), (8.0, 0.0)), *U_TURN], start)
+    (obstacle,) = following(Dragon(1), route).obstacles
+    # There the bench is across the path of its front handle.
+    assert_near(obstacle.s + start, 8.0 + 0.9 * math.acos(-0.9 / (2.86 - 0.9)), 1e-6)
+    corners = Legs([(0.0, 0.0), (8.0, 0.0), (8.051, 0.296), (0.513, 2.976)], [0, 1, 2], radius=0.0, start=start)
+    assert not follows(Dragon(1), corners)
+
+
+def test_no_bench_is_refused_for_a_bend_that_it_has_passed_before_the_dance_begins():
+    route = Route([Line((0.0, 0.0), (8.0, 0.0)), *U_TURN])
+    assert check(Dance(Dragon(20), route)).verdict is Judgement.PASSES
+    with refused("path", bench=0):
+        Dance(Dragon(2), route)
