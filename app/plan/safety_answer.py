@@ -1,15 +1,22 @@
-"""The answer of a safety sheet."""
+"""The answer of a safety sheet, and the lanes that it is asked about."""
 
 from __future__ import annotations
 
 from typing import Self
 
+import numpy as np
 from pydantic import Field
 
 import core
 from app.wire.answers import MultiPolygon, Point, Polygon
-from app.wire.fields import Answer, measure
-from core import Judgement
+from app.wire.fields import Answer, OneLine, Wire, measure
+from app.wire.messages import checked
+from app.wire.numbers import numbers_of
+from app.wire.paths import Point as PointField
+from core import Area, InvalidValue, Judgement
+from core.errors import Given
+from core.shapes.engines import lane_rings
+from core.values import Floats
 
 
 class Assumption(Answer):
@@ -57,6 +64,37 @@ class LaneStay(Answer, of=core.Stay):
     end: float
     first: int
     last: int
+
+
+class LaneBody(Wire, strict=True):
+    """A lane to keep free, such as one for ambulances."""
+
+    name: OneLine = Field(min_length=1, max_length=40, description="Its name")
+    points: list[PointField] = measure("m", "Points of its middle line, x and y", min_length=2, max_length=50)
+    width: float = measure("m", "Its width", 3.5, ge=0.5, le=50)
+
+    @classmethod
+    def of_text(cls, text: str) -> Self:
+        """A lane as NAME,WIDTH,X,Y,X,Y,... raises: InvalidValue"""
+        name, *rest = text.split(",")
+        if len(rest) < 5 or len(rest) % 2 == 0 or not name:
+            raise InvalidValue.in_words("lane", "--lane must be NAME,WIDTH,X,Y,X,Y,... [m]", got=Given(text))
+        width, *places = numbers_of("lane", ",".join(rest), float)
+        points = [list(pair) for pair in zip(places[::2], places[1::2], strict=True)]
+        return checked(cls, {"name": name, "width": width, "points": points})
+
+    @property
+    def middle(self) -> Floats:
+        """Points of its middle line (P, 2) [m]."""
+        return np.array(self.points, dtype=np.float64)
+
+    def to_area(self, field: str) -> Area:
+        """The ground of it. raises: InvalidValue"""
+        try:
+            rings = lane_rings(self.middle, self.width)
+            return Area(self.name, tuple(tuple((x, y) for x, y in ring.tolist()) for ring in rings))
+        except (InvalidValue, ValueError) as error:
+            raise InvalidValue(f"{field}.points", "must be a line with a length") from error
 
 
 class Lane(Answer):

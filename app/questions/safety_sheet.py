@@ -9,14 +9,17 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
+from pydantic import Field
 
 import core
 from app.plan.safety_answer import (
     Approach,
+    Assumption,
     FastestCarriers,
     GatePass,
     Ground,
     Lane,
+    LaneBody,
     LaneStay,
     LooseTail,
     SafetySheet,
@@ -38,19 +41,21 @@ from app.questions.plan import (
     GATES,
     GATES_MAX,
     PDF_TYPE,
+    GatedDance,
     PlanGate,
     passes_of_gates,
     timing_of_marks,
 )
-from app.questions.safety_request import LANES_MAX, LaneBody, SafetySheetRequest, assumptions_of, loose_of
-from app.wire.dances import clock_of, starting
+from app.wire.dances import PathFields, clock_of, starting
 from app.wire.degrees import Place
+from app.wire.fields import Address, OneLine, measure
 from app.wire.geojson import GATE, geometry_of
 from app.wire.geojson import LANE as LANE_ROLE
+from app.wire.performances import SeveralFields
 from app.wire.question import JSON, UNKNOWN_COST, Command, ListOption, Output, Question, Terms
 from app.wire.readings import dragons_failure_words, failure_words
 from core import Area, FailureKind, InvalidValue, Judgement, Part, Performance
-from core.errors import Parameter, format_bound, question_about
+from core.errors import Parameter, format_bound, format_number, question_about
 from core.language import joined, say
 from core.motion.places import Passing
 from core.motion.trajectory import trajectory
@@ -63,12 +68,39 @@ if TYPE_CHECKING:
     from app.plan.ground import GroundMap, SafetyLayers
     from app.plan.safety import SafetyWords
 
-# Most approaches that a sheet lists.
-APPROACHES = 5
+# Most lanes of a sheet, and approaches that it lists.
+LANES_MAX, APPROACHES = 10, 5
+# Most dragons whose numbers of benches stand on a sheet.
+DRAGONS_NAMED = 6
+# Benches that may be let go if the request does not say how many.
+LOOSE = 3
 # Excess of the swept ground, and distance from which on two approaches of benches are at different places [m].
 EXCESS, APART = 0.01, 4.0
 # Distance from which on an approach is none, such as that to the border of an endless plain [m].
 FAR = 1000.0
+
+
+class SafetySheetRequest(SeveralFields, GatedDance, strict=True):
+    """A dance, or several on one clock, as for /check, and what its sheet assumes and names."""
+
+    lanes: list[LaneBody] = Field(
+        [],
+        max_length=LANES_MAX,
+        fail_fast=True,
+        description="Lanes to keep free, such as those for ambulances; those of the venue follow them",
+    )
+    spectators: float = measure(
+        "m", "Distance at which people stand from all ground that benches may sweep", 1.0, ge=0, le=100
+    )
+    loose: int | None = Field(
+        None, ge=1, description="Number of the last benches that may be let go; default: 3, or all of a shorter dragon"
+    )
+    reaction: float = measure("s", "Time from the call to stop until everybody stands", 2.0, ge=0, le=60)
+    stopper: OneLine = Field("", max_length=80, description="Who stops the dance")
+    date: OneLine = Field("", max_length=40, description="Date of the sheet; empty: a line to fill in")
+    address: Address = Field(
+        "", max_length=500, description="Address of the dance, which stands on the sheet as a code"
+    )
 
 
 def safety_sheet(request: SafetySheetRequest, terms: Terms, form: str = JSON) -> SafetySheet | bytes:
@@ -449,6 +481,57 @@ def _refuse_more_than(loose: int | None, dragons: Sequence[core.Dragon]) -> None
     least = min(dragon.benches for dragon in dragons)
     if loose is not None and loose > least:
         raise InvalidValue("loose", "must be at most {most}, all benches of the dragon", got=loose, most=least)
+
+
+def loose_of(request: SafetySheetRequest, dragon: core.Dragon) -> int:
+    """Number of the last benches that may be let go."""
+    return request.loose or min(LOOSE, dragon.benches)
+
+
+def assumptions_of(request: SafetySheetRequest, dragons: Sequence[core.Dragon]) -> list[Assumption]:
+    """What a sheet rests on, and which of it the request gives."""
+    given = request.model_fields_set
+    bodies: Sequence[PathFields] = request.dances or [request]
+    own = {name for one in bodies for name in one.dragon.model_fields_set}
+    moves = {name for one in bodies for name in one.model_fields_set}
+
+    def each(values: Sequence[float]) -> str:
+        """The value, or the least and the largest of several."""
+        low, high = format_number(min(values)), format_number(max(values))
+        return low if low == high else say("{low} to {high}", low=low, high=high)
+
+    lengths = [float(one) for dragon in dragons for one in dragon.lengths]
+    sizes = say("{low} to {high} m long", low=format_number(min(lengths)), high=format_number(max(lengths)))
+    speed = say("no limit") if request.speed_limit is None else f"{format_number(request.speed_limit)} m/s"
+    streets = say("none given") if request.venue is None else say("as drawn")
+    benches = " + ".join(str(dragon.benches) for dragon in dragons[:DRAGONS_NAMED])
+    if len(dragons) > DRAGONS_NAMED:
+        benches += " + …"
+    rows = [
+        (say("benches"), benches, bool(own & {"benches", "lengths"})),
+        (say("sizes of benches"), sizes, bool(own - {"benches", "names"})),
+        (
+            say("speed of the head"),
+            f"{each([one.head_speed for one in bodies])} m/s",
+            bool(moves & {"head_speed", "passages", "beats"}),
+        ),
+        (
+            say("people stray at most"),
+            f"{format_number(request.total_stray or 0.0)} m",
+            bool(given & {"stray", "hole", "pin"}),
+        ),
+        (say("benches keep apart"), f"{format_number(request.margin)} m", "margin" in given),
+        (say("speed limit"), speed, "speed_limit" in given),
+        (say("square, streets and obstacles"), streets, request.venue is not None),
+        (say("people stand back"), f"{format_number(request.spectators)} m", "spectators" in given),
+        (
+            say("last benches that may be let go"),
+            str(max(loose_of(request, dragon) for dragon in dragons)),
+            "loose" in given,
+        ),
+        (say("time to stop"), f"{format_number(request.reaction)} s", "reaction" in given),
+    ]
+    return [Assumption(label=label, text=text, yours=yours) for label, text, yours in rows]
 
 
 def _cost(request: SafetySheetRequest, form: str = JSON) -> float:

@@ -6,8 +6,8 @@ import pytest
 from matplotlib.colors import to_rgb
 
 from app.files.film_spec import GIF_TYPE, FilmSpec
+from app.files.looks import colour_of
 from app.files.performance_film import PerformancePicture
-from app.files.performances import colour_of
 from app.questions.films import QUESTION, FilmRequest, shared_music
 from app.settings import Settings
 from app.wire.messages import checked
@@ -39,7 +39,7 @@ def test_every_bench_is_drawn_in_the_colour_of_its_dragon():
         for k, own in enumerate(outlines):
             for x, y in stage.axes.transData.transform(own.mean(axis=1)):
                 colour = picture[round(len(picture) - 1 - y), round(x)] / 255.0
-                assert_near(colour, to_rgb(colour_of(k)), 0.02)
+                assert_near(colour, to_rgb(colour_of(PERFORMANCE, k)), 0.02)
     assert stage.time.text == "19:30:20 (20.50 s)"
 
 
