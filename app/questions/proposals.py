@@ -9,8 +9,8 @@ import orjson
 from pydantic import Field
 
 import core
+from app.cards.proposals import Card, Cards
 from app.questions.check import Failure
-from app.questions.proposal_cards import Card, Cards
 from app.wire.dances import DragonFields, VenueFields
 from app.wire.degrees import GeographicOrigin, Place
 from app.wire.fields import Angle, Answer, Margin, OneLine, SpeedLimit, Whole, Wire, measure
