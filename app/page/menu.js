@@ -26,18 +26,23 @@ export class Menu {
     stage.addEventListener("contextmenu", (event) => {
       if (!editor.canEdit) return;
       event.preventDefault();
-      if (!this.box.matches(":popover-open")) this.open(event.clientX, event.clientY);
+      this.#ask(event);
     });
     stage.addEventListener("pointerdown", (event) => this.#wait(event), { capture: true });
     for (const type of ["pointermove", "pointerup", "pointercancel"]) stage.addEventListener(type, (event) => this.#end(event), { capture: true });
   }
 
   /** A finger that stays in its place opens the menu. */
-  #wait({ pointerType, isPrimary, clientX, clientY }) {
+  #wait(event) {
     clearTimeout(this.#press);
-    if (pointerType !== "touch" || !isPrimary || !this.editor.canEdit) return;
-    this.from = [clientX, clientY];
-    this.#press = setTimeout(() => this.open(clientX, clientY), LONG);
+    if (event.pointerType !== "touch" || !event.isPrimary || !this.editor.canEdit) return;
+    this.from = [event.clientX, event.clientY];
+    this.#press = setTimeout(() => this.#ask(event), LONG);
+  }
+
+  /** Open the menu, unless it is open, or what was pressed is being dragged. */
+  #ask({ clientX, clientY }) {
+    if (!this.editor.base && !this.box.matches(":popover-open")) this.open(clientX, clientY);
   }
 
   #end({ type, clientX, clientY }) {

@@ -169,13 +169,14 @@ class Person:
         self.page.mouse.up()
         return self
 
-    def swipes(self, x, y, dx, dy):
-        """Move a finger from a place by pixels."""
+    def swipes(self, x, y, dx, dy, rest=0.0):
+        """Move a finger from a place by pixels. rest: how long it stays before it is lifted [ms]"""
         finger = self.page.context.new_cdp_session(self.page)
-        points = [[{"x": x + dx * k / 8, "y": y + dy * k / 8}] for k in range(9)]
+        points = [[{"x": x + dx * k / 3, "y": y + dy * k / 3}] for k in range(4)]
         for k, point in enumerate(points):
             kind = "touchMove" if k else "touchStart"
             finger.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": point})
+        self.page.wait_for_timeout(rest)
         finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
         self.settles()
 
