@@ -284,7 +284,8 @@ def _excess(
 
 
 def _late_excess(search: ContactSearch, ratio: float, period: Period, proven: float) -> FirstExcess:
-    """An excess after the time at which a proof was given up [s], tried at instants that approach the end."""
+    """An excess after the time at which a proof was given up [s], tried at instants that approach both ends:
+    at a corner of the path a handle may become faster all at once."""
 
     def faster(time: float) -> int | None:
         """A handle that is certainly faster than the limit at an instant."""
@@ -293,7 +294,8 @@ def _late_excess(search: ContactSearch, ratio: float, period: Period, proven: fl
         return excess.handle if outcome is Judged.EXCEEDED else None
 
     until = period.end
-    times = [until - (until - proven) * 0.5**k for k in range(HALVINGS)] + [until]
+    ways = [(until - proven) * 0.5**k for k in range(1, HALVINGS)]
+    times = [*(proven + way for way in reversed(ways)), *(until - way for way in ways), until]
     high = next((time for time in times if faster(time) is not None), None)
     if high is None:
         return FirstExcess(None, (proven, until), None)

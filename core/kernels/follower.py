@@ -187,7 +187,7 @@ class Follower:
             return cosine
         x, y, _, _, _ = route_point(self.pieces, self.p, s, 0.0)
         bx, by, tx, ty, _ = route_point(self.pieces, self.q, r, 0.0)
-        self.work += 2.0
+        self.work += 2.0 + last - first
         least, _ = cosines_past(self.pieces, first, last, tx, ty, (x - bx) / self.chord, (y - by) / self.chord)
         return min(cosine, least)
 

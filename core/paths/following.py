@@ -23,8 +23,9 @@ ROOM_WIDTH = 1e-9
 ARC_MOST = 0.5 * math.pi
 # Largest distance by which a proof begins before the first place of a front handle [m].
 BEGIN_WIDTH = 1e-9
-# Work of the proof for the benches of one chord [1]; 1e6 take 0.15 s (measured 2026-11-30).
-WORK_MOST = 3e7
+# Work of the proof for all benches [1]; 1e6 take 0.15 s (measured 2026-11-30). Work for a part of a bend beside that of
+# its slabs [1].
+WORK_MOST, WORK_OF_PART = 3e7, 40.0
 
 
 class Hindrance(StrEnum):
@@ -149,6 +150,7 @@ def _followed(dragon: Dragon, path: Route) -> Following:
     arc, rear, front = ARC_MOST * float(chords.max()), 1.0, 1.0
     obstacles: list[Obstacle] = []
     kinds, firsts = np.unique(chords, return_index=True)
+    left = WORK_MOST
     # From the front handle of each bench to the last handle: chords span at least as much of the path [m].
     behind = np.cumsum(dragon.chords[::-1])[::-1]
     for first, chord in sorted(zip(firsts.tolist(), kinds.tolist(), strict=True)):
@@ -158,10 +160,12 @@ def _followed(dragon: Dragon, path: Route) -> Following:
         alike = behind[dragon.chords == chord]
         if path.tail_begin is not None:
             earliest = max(earliest, path.tail_begin + float(alike[-1]))
-        for start, stop in _tight_parts(path, least_radius(chord)):
+        parts = _tight_parts(path, least_radius(chord))
+        left -= WORK_OF_PART * len(parts)
+        for start, stop in parts:
             begin = max(start, earliest, proven)
             if begin < end and stop > proof.rear:
-                ended = proof.follow(begin, end, stop, WORK_MOST)
+                ended = proof.follow(begin, end, stop, max(left, 0.0))
                 if len(path.corners) and ended is Follows.PROVEN:
                     proven = proof.reached
                 if ended is not Follows.PROVEN:
@@ -170,6 +174,7 @@ def _followed(dragon: Dragon, path: Route) -> Following:
                     among = min(int((ARC_MOST * alike > room).sum()), alike.size - 1)
                     bench = int(np.flatnonzero(dragon.chords == chord)[among])
                     obstacles.append(_obstacle(bench, chord, path, proof, Hindrance[ended.name]))
+        left -= proof.work
         arc, rear, front = max(arc, proof.longest), min(rear, proof.rear_cosine), min(front, proof.front_cosine)
         if obstacles:  # where this bench stops, those behind it do too
             break
@@ -187,9 +192,9 @@ def _front_most(chords: Floats, bench: int, path: Route) -> float:
 def _tight_parts(path: Route, radius: float) -> list[tuple[float, float]]:
     """Ends of the parts of a route that bend more tightly than a radius [m], BEGIN_WIDTH too long where a row of the
     table does so only in part: its |curvature| rises or falls there."""
-    table, most = path.table, 1.0 / radius
-    rows = np.searchsorted(table[:, S_START], [part[0] for part in path.tighter(radius)])
-    ends = np.searchsorted(table[:, S_END], [part[1] for part in path.tighter(radius)])
+    table, most, parts = path.table, 1.0 / radius, path.tighter(radius)
+    rows = np.searchsorted(table[:, S_START], [part[0] for part in parts])
+    ends = np.searchsorted(table[:, S_END], [part[1] for part in parts])
 
     def edge(row: Floats, gentle: int, tight: int, column: int) -> float:
         low, high = float(row[gentle]), float(row[tight])
@@ -204,7 +209,7 @@ def _tight_parts(path: Route, radius: float) -> list[tuple[float, float]]:
         (start, stop)  # a corner
         if start == stop
         else (edge(table[row], S_START, S_END, K_START), edge(table[end], S_END, S_START, K_END))
-        for row, end, (start, stop, _) in zip(rows, ends, path.tighter(radius), strict=True)
+        for row, end, (start, stop, _) in zip(rows, ends, parts, strict=True)
     ]
 
 

@@ -13,7 +13,16 @@ from core.dragon import Dragon
 from core.errors import InvalidValue, Quantity, Value, bound, quantities
 from core.kernels.constants import LAG
 from core.language import phrase
-from core.paths.following import ROOM_WIDTH, Obstacle, bends_widely, degrees_most, following, follows, least_radius
+from core.paths.following import (
+    ROOM_WIDTH,
+    Hindrance,
+    Obstacle,
+    bends_widely,
+    degrees_most,
+    following,
+    follows,
+    least_radius,
+)
 from core.paths.legs import Legs
 from core.paths.pieces import Arc, Line
 from core.paths.route import Route
@@ -26,6 +35,8 @@ ANGLE_STEP, RADIUS_STEP = 0.1, 0.01
 STRAIGHT = 2.0
 # Most points of a path that is laid out again with other radii, which takes 0.1 s or less a time [1].
 POINTS_MOST = 50
+# Most different chords of a dragon for which other bends are tried [1].
+CHORDS_MOST = 10
 
 TOO_MUCH = phrase("the path turns by {turn} there, of which {missing} are too much")
 ROUNDED = phrase("with a radius of {least} at its corners the path is followed")
@@ -51,10 +62,12 @@ class Remedy:
 # Nothing is said that was not tried: both numbers are on a grid, and the bend is followed with the values said.
 def remedy(dragon: Dragon, path: Route, obstacle: Obstacle) -> Remedy:
     """What would let every bench follow where one cannot."""
-    chord = obstacle.chord
-    surely = RADIUS_STEP * math.ceil(least_radius(chord) / RADIUS_STEP)
+    chords = np.unique(dragon.chords[: dragon.uniform_from + 1])
+    turn, missing, radius, how = None, None, least_radius(float(chords[-1])), ALWAYS
+    if obstacle.reason is Hindrance.UNKNOWN or chords.size > CHORDS_MOST:
+        return Remedy(turn, missing, radius, how)
+    surely = RADIUS_STEP * math.ceil(least_radius(obstacle.chord) / RADIUS_STEP)
     bend = _lone_bend(path, obstacle)
-    turn, missing, radius, how = None, None, least_radius(chord), ALWAYS
     if bend is not None:
         own, turn = bend
         steps = int(turn / math.radians(ANGLE_STEP))

@@ -13,6 +13,7 @@ from core import (
     Dragon,
     EndReason,
     InvalidValue,
+    Legs,
     Line,
     Passage,
     Route,
@@ -171,3 +172,11 @@ def test_near_a_fold_there_is_always_a_handle_that_reaches_the_highest_speed():
     """There two chains of the same instant differ by more than what counts as equal."""
     dance = Dance(Dragon(1, 900.0, 900.0, 20.0, 0.0), Spiral(300.0, 40.0))
     assert highest_speed(dance, stop=1506595.0796309002).handles == (1,)
+
+
+def test_a_handle_that_becomes_too_fast_at_a_corner_does_so_when_the_head_passes_it():
+    points = np.cumsum([0.0, *([10.0, 1.3, 16.0] * np.exp(1j * np.radians([-40.0, 45.0, 0.0])))])
+    path = Legs([(one.real, one.imag) for one in points.tolist()], [0, 1, 2], radius=0.0)
+    excess = first_excess(Dance(Dragon(1, 2.4, 2.4, 0.3, 0.2), path), 1.2)
+    assert (excess.time, excess.handle) == (pytest.approx(11.3, abs=1e-6), 1)
+    assert excess.time_bracket == pytest.approx((11.3, 11.3), abs=1e-6)
