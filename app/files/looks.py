@@ -13,6 +13,8 @@ from core.values import Floats
 COLOURS = (VERMILION, BLUE, "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 # The whole square is drawn if it is at most this many times as large as the dance; else only the part around the dance.
 SQUARE_MOST = 2.0
+# Brightest shade on which words are white [1].
+DARK = 0.55
 # Length of a street that belongs to the square on a map [m].
 STREET = 5.0
 
@@ -20,6 +22,12 @@ STREET = 5.0
 def colour_of(performance: Performance, dragon: int) -> str:
     """Colour of one of several dragons: its own, or one by its number."""
     return performance.parts[dragon].colour or COLOURS[dragon % len(COLOURS)]
+
+
+def ink_on(colour: str) -> str:
+    """Black or white, whichever can be read on a colour, #rrggbb."""
+    red, green, blue = (int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5))
+    return "#000000" if 0.30 * red + 0.59 * green + 0.11 * blue > DARK else "#ffffff"
 
 
 def square_alone(venue: Venue) -> tuple[Floats, Floats]:

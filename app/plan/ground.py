@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from app.files.looks import square_alone, with_square
+from app.files.looks import ink_on, square_alone, with_square
 from app.files.typeset import POINT, Face
 from app.maps.features import inner_point
 from app.maps.marks import line_of
@@ -299,7 +299,7 @@ def draw_benches(drawing: MapDrawing, outlines: Floats, names: Sequence[str], co
 
     outlines: corners (n, 4, 2) [m]; colour: of all benches, empty for those of the only dragon
     """
-    own = look(colour, width=0.3) if colour else ""
+    own, ink = look(colour, width=0.3) if colour else "", ink_on(colour) if colour else "#000000"
     corners = drawing.scale.on_paper(outlines)
     for k, bench in enumerate(corners):
         drawing.shape([bench], own or (IN_BENCH if k else IN_HEAD), 5)
@@ -320,7 +320,7 @@ def draw_benches(drawing: MapDrawing, outlines: Floats, names: Sequence[str], co
         if size >= SMALLEST and drawing.width(names[k], size) < 0.9 * long:
             turned = float(np.degrees(np.arctan2(normals[k, 1], normals[k, 0]))) % 180.0 - 90.0
             x, y = middles[k].tolist()
-            drawing.write(names[k], x, y, size, turned=-turned, order=k + 1)
+            drawing.write(names[k], x, y, size, turned=-turned, order=k + 1, colour=ink)
             continue
         size = NAME_TYPE if k == 0 else BENCH_TYPE
         for words in (names[k], names[k].partition(" ")[0]):
