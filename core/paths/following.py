@@ -151,14 +151,15 @@ def _followed(dragon: Dragon, path: Route) -> Following:
     obstacles: list[Obstacle] = []
     kinds, firsts = np.unique(chords, return_index=True)
     left = WORK_MOST
-    # From the front handle of each bench to the last handle: chords span at least as much of the path [m].
+    # From the front handle of each bench to the last handle: chords span at least as much of the path [m]. A path that
+    # is too short for the dragon is judged as one that will be longer, while a person draws it.
     behind = np.cumsum(dragon.chords[::-1])[::-1]
     for first, chord in sorted(zip(firsts.tolist(), kinds.tolist(), strict=True)):
         proof = kernels.Follower(path.table, chord, REAR_COSINE_LEAST)
         end = _front_most(chords, first, path)
         earliest, proven = _first_front(path, chord), -math.inf
         alike = behind[dragon.chords == chord]
-        if path.tail_begin is not None:
+        if path.tail_begin is not None and path.tail_begin + float(behind[0]) <= path.end:
             earliest = max(earliest, path.tail_begin + float(alike[-1]))
         parts = _tight_parts(path, least_radius(chord))
         left -= WORK_OF_PART * len(parts)
