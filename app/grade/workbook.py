@@ -13,12 +13,13 @@ of a sheet makes it allocate 550 GB, which ends the process (python-calamine 0.9
 from __future__ import annotations
 
 import io
+import re
 import sys
 import warnings
 import zipfile
 from collections.abc import Iterator
 from contextlib import closing
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 from xml.parsers import expat
 
 from app.extras import require
@@ -48,6 +49,8 @@ ROW, CELL, FORMULA, VALUE, MERGED = (
     "http://schemas.openxmlformats.org/spreadsheetml/2006/main}" + name for name in ("row", "c", "f", "v", "mergeCell")
 )
 STRICT = "http://purl.oclc.org/ooxml/"
+# The decimals that a number format shows, as in 0.00.
+DECIMALS_SHOWN = re.compile(r"0\.(0+)")
 # Most cells of a row in any spreadsheet program; openpyxl keeps those of a row in memory.
 ROW_CELLS_MAX = 16_384
 
@@ -195,10 +198,26 @@ def _sheets(book: Workbook, budget: Budget) -> list[Grid]:
             if characters > UNPACKED_MAX:
                 raise BadArchive("bomb")
             grid.rows.append([_cell(value) for value in row[:COLUMNS_MAX]])
+        numbers = [value for line in grid.rows for value in line if isinstance(value, float)]
+        # Only among whole numbers the formats tell how they were rounded: 1.00 is stored as 1.
+        if 2 * sum(value.is_integer() for value in numbers) > len(numbers):
+            lines = sheet.iter_rows(max_row=len(grid.rows))
+            grid.words = [_as_written(line[:COLUMNS_MAX], budget) for line in lines]
         grids.append(grid)
     if not grids:
         raise ValueError("no sheets")
     return grids
+
+
+def _as_written(line: tuple[Any, ...], budget: Budget) -> list[str]:
+    """Whole numbers of a row with the decimals that their formats show, such as 1.00; other cells are empty."""
+    budget.look()
+    return [
+        f"{cell.value:.{min(len(zeros[1]), 15)}f}"
+        if isinstance(cell.value, int | float) and (zeros := DECIMALS_SHOWN.search(cell.number_format))
+        else ""
+        for cell in line
+    ]
 
 
 def _cell(value: object) -> Cell:

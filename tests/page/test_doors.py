@@ -119,7 +119,7 @@ def test_behind_a_door_numbers_are_as_people_say_them_and_the_rest_is_one_step_a
     }
     person.reads(people).sees({"#minimum-pitch button": False}).presses("#first-contact summary")
     person.presses("#minimum-pitch summary").sees({"#minimum-pitch button": True})
-    person.reads({"#first-contact dd": "412.473838 s", "#minimum-pitch dd": "0.450337393 m"})
+    person.reads({"#first-contact dd": "Contact at 412.473838 s", "#minimum-pitch dd": "0.450337393 m"})
     # Each number is one Tab stop.
     person.focuses("#pitch")
     for name in CONTEST[1:]:

@@ -2,8 +2,10 @@
 
 import itertools
 from functools import cache, partial
+from io import BytesIO
 
 import numpy as np
+import openpyxl
 import pytest
 
 from app.grade.decimals import digits_of
@@ -212,6 +214,14 @@ def test_text_shows_the_decimals_of_equal_speeds(speed, verdict):
     causes = {"1.00": [], "1.000000": ["equal_speeds"], "-1.00": ["speeds_negated"]}
     assert result.verdict == verdict
     assert errors(result) == causes[speed]
+    # So do the formats of a workbook, in which 1.00 is stored as 1.
+    book = openpyxl.load_workbook(BytesIO(students.by_xlsxwriter(students.rows_of(spiral(SPIRAL_TIMES), SPIRAL_TIMES))))
+    for row in book["速度"].iter_rows(min_row=2, min_col=2):
+        for cell in row:
+            cell.value = float(speed)
+            cell.number_format = f"0.{'0' * len(speed.partition('.')[2])}"
+    book.save(file := BytesIO())
+    assert errors(grade(file.getvalue())) == causes[speed]
 
 
 def test_a_table_has_the_decimals_of_its_numbers_that_show_some():
