@@ -22,6 +22,7 @@ const NEXT = {
 };
 const OUTCOMES = { passes: ["clear", "✓"], fails: ["contact", "✕"], undecided: ["undecided", "?"] };
 const DECIMALS = 6;
+const SHEET = phrase("Safety sheet, for whoever permits it");
 
 /** True for a dance in a square that stands here to begin with. */
 const isExample = ({ drawing }) => Boolean(drawing?.things.length) && isPresetPath(drawing) && isPresetVenue(drawing);
@@ -45,7 +46,7 @@ export class Judgement {
     const [outcome, mark] = OUTCOMES[dance.verdict];
     const rows = dance.failures.map((failure) => this.#row([`${formatNumber(failure.time, DECIMALS, 2)} s`, failure.clock].filter(Boolean).join(" · "), failure.sentence, () => this.seek(failure)));
     const lines = [...dance.sentences, ...(dance.lines ?? [])];
-    this.#fill(outcome, mark, say(VERDICTS[dance.verdict]), lines, rows, { known: dance.known, title: say(isExample(dance) ? "Verdict on this example" : "Verdict") });
+    this.#fill(outcome, mark, say(VERDICTS[dance.verdict]), lines, rows, { known: dance.known, title: say(isExample(dance) ? "Verdict on this example" : "Verdict"), sheet: true });
   }
 
   /** No verdict until these fields are mended, beside which the reason stands. */
@@ -72,8 +73,8 @@ export class Judgement {
     return make("li", {}, button({ textContent: name }, act), " ", make("span", { textContent: text }));
   }
 
-  /** known: sentences of the evidence; title: what the verdict is on */
-  #fill(outcome, mark, value, lines, rows, { known = [], title = say("Verdict") } = {}) {
+  /** known: sentences of the evidence; title: what the verdict is on; sheet: whether there is a safety sheet */
+  #fill(outcome, mark, value, lines, rows, { known = [], title = say("Verdict"), sheet = false } = {}) {
     const open = this.box.querySelector("details")?.open ?? false;
     const sign = make("span", { className: "mark", "aria-hidden": "true", textContent: mark });
     this.box.dataset.outcome = outcome;
@@ -84,6 +85,7 @@ export class Judgement {
     const old = make("p", { className: "old", textContent: say("Older than your numbers") });
     const evidence = make("details", { open }, make("summary", { textContent: say("How it is known") }), ...known.map((textContent) => make("p", { textContent })));
     this.box.replaceChildren(old, make("h3", { textContent: title }), make("p", { className: "value" }, sign, value), ...sentences, ...(rows.length ? [list] : []), ...(known.length ? [evidence] : []));
+    if (sheet) this.box.append(button({ id: "to-safety", textContent: say(SHEET) }, () => document.dispatchEvent(new Event("safety"))));
     tell(this.box);
   }
 }

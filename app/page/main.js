@@ -451,6 +451,10 @@ function listen() {
     await showSection("keep");
     $("#keep-title").focus({ preventScroll: true });
   });
+  document.addEventListener("safety", async () => {
+    await showSection("keep");
+    $("#keepSafety-A4").click();
+  });
   // The reasons of the verdict are not on the whole screen.
   $("#verdict").addEventListener("click", async (event) => {
     if (!document.fullscreenElement) return;

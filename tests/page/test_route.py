@@ -104,7 +104,7 @@ def test_a_square_with_a_tree_and_a_wall_is_drawn_named_judged_and_changed_by_th
     shapes = [(one["properties"]["name"], one["geometry"]["type"]) for one in kept]
     lane = ("emergency lane", "LineString")
     assert shapes == [("square", "Polygon"), ("old oak", "Point"), ("wall", "LineString"), lane]
-    (sheet,) = paper.sheets_of(person.reaches_below().saves("#keepSafety-A4"))
+    (sheet,) = paper.sheets_of(person.saves("#to-safety"))
     assert "emergency lane, 3.5 m wide: " in sheet
     # A file and an address keep it, and no bench can touch it.
     assert person.opens(f"?{person.page.url.partition('?')[2]}").sees(YES).counts("#things li") == 4
