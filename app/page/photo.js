@@ -181,9 +181,10 @@ export class Photo {
     this.#keep();
   }
 
-  #remove() {
+  /** The photo is away only when the device has forgotten it, so that no reload brings it back. */
+  async #remove() {
+    await inStore("readwrite", (store) => store.delete(KEY)).catch(() => {});
     this.#shown = null;
-    inStore("readwrite", (store) => store.delete(KEY)).catch(() => {});
     this.#show(false);
   }
 }
