@@ -154,13 +154,14 @@ def _followed(dragon: Dragon, path: Route) -> Following:
     # From the front handle of each bench to the last handle: chords span at least as much of the path [m]. A path that
     # is too short for the dragon is judged as one that will be longer, while a person draws it.
     behind = np.cumsum(dragon.chords[::-1])[::-1]
+    has_room = path.tail_begin is not None and path.begin + float(behind[0]) <= path.end
     for first, chord in sorted(zip(firsts.tolist(), kinds.tolist(), strict=True)):
         proof = kernels.Follower(path.table, chord, REAR_COSINE_LEAST)
         end = _front_most(chords, first, path)
         earliest, proven = _first_front(path, chord), -math.inf
         alike = behind[dragon.chords == chord]
-        if path.tail_begin is not None and path.tail_begin + float(behind[0]) <= path.end:
-            earliest = max(earliest, path.tail_begin + float(alike[-1]))
+        if has_room:
+            earliest = max(earliest, path.begin + float(alike[-1]))
         parts = _tight_parts(path, least_radius(chord))
         left -= WORK_OF_PART * len(parts)
         for start, stop in parts:
@@ -171,9 +172,8 @@ def _followed(dragon: Dragon, path: Route) -> Following:
                     proven = proof.reached
                 if ended is not Follows.PROVEN:
                     # The first bench that surely comes there from behind, or else the last one.
-                    room = proof.reached - (path.begin if path.tail_begin is None else path.tail_begin)
-                    among = min(int((ARC_MOST * alike > room).sum()), alike.size - 1)
-                    bench = int(np.flatnonzero(dragon.chords == chord)[among])
+                    ahead = int((ARC_MOST * alike > proof.reached - path.begin).sum()) if has_room else 0
+                    bench = int(np.flatnonzero(dragon.chords == chord)[min(ahead, alike.size - 1)])
                     obstacles.append(_obstacle(bench, chord, path, proof, Hindrance[ended.name]))
         left -= proof.work
         arc, rear, front = max(arc, proof.longest), min(rear, proof.rear_cosine), min(front, proof.front_cosine)

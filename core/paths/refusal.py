@@ -66,7 +66,7 @@ def remedy(dragon: Dragon, path: Route, obstacle: Obstacle) -> Remedy:
     turn, missing, radius, how = None, None, least_radius(float(chords[-1])), ALWAYS
     if obstacle.reason is Hindrance.UNKNOWN or chords.size > CHORDS_MOST:
         return Remedy(turn, missing, radius, how)
-    surely = RADIUS_STEP * math.ceil(least_radius(obstacle.chord) / RADIUS_STEP)
+    surely = RADIUS_STEP * math.ceil(radius / RADIUS_STEP)
     bend = _lone_bend(path, obstacle)
     if bend is not None:
         own, turn = bend

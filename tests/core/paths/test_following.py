@@ -123,5 +123,7 @@ def test_bends_before_and_beyond_place_zero_are_looked_at(start):
 def test_no_bench_is_refused_for_a_bend_that_it_has_passed_before_the_dance_begins():
     route = Route([Line((0.0, 0.0), (8.0, 0.0)), *U_TURN])
     assert check(Dance(Dragon(20), route)).verdict is Judgement.PASSES
-    with refused("path", bench=0):
-        Dance(Dragon(2), route)
+    # A path that is too short for the dragon is judged as it would be for a shorter one.
+    for benches in (2, 223):
+        with refused("path", bench=0):
+            Dance(Dragon(benches), route)
