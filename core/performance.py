@@ -42,7 +42,7 @@ PARTS_MAX = 200
 BENCHES_MAX = 1_000_000
 # Length of the stretch of its dance that stands for a dragon which stands during a whole interval [s].
 STANDING = 1e-3
-COLOUR = re.compile("#[0-9a-f]{6}")
+COLOUR = re.compile("#[0-9a-fA-F]{6}")
 
 
 @dataclass(frozen=True, repr=False)
@@ -71,7 +71,7 @@ class Part(Readable):
         object.__setattr__(self, "delay", checked_number("delay", self.delay, "s", -DELAY_MAX, DELAY_MAX))
         if self.name is not None:
             checked_name("name", self.name)
-        if self.colour is not None and not COLOUR.fullmatch(self.colour):
+        if self.colour is not None and not (isinstance(self.colour, str) and COLOUR.fullmatch(self.colour)):
             raise InvalidValue("colour", "must be #rrggbb, such as #b3261e", got=Given(self.colour))
 
     @property

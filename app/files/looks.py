@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from core import Performance, Venue
@@ -30,6 +32,7 @@ def ink_on(colour: str) -> str:
     return "#000000" if 0.30 * red + 0.59 * green + 0.11 * blue > DARK else "#ffffff"
 
 
+@lru_cache(maxsize=4)
 def square_alone(venue: Venue) -> tuple[Floats, Floats]:
     """Corners (2,) [m] of a venue's square with the first metres of its streets."""
     ring, (low, high) = np.array(venue.square.rings[0]), without_streets(venue.square.rings)

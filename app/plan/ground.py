@@ -97,7 +97,7 @@ def scale_for(grounds: Sequence[GroundMap], name: PaperName, benches: Floats | N
             np.where(ring.min(axis=0) < inner[0], np.maximum(least, inner[0]), least),
             np.where(ring.max(axis=0) > inner[1], np.minimum(most, inner[1]), most),
         )
-        if benches is None or all(((cut[0] <= one) & (one <= cut[1])).all() for one in benches.reshape(-1, 2)):
+        if benches is None or ((cut[0] <= benches) & (benches <= cut[1])).all():
             least, most = cut
     return scale_of(name, least, most)
 

@@ -9,7 +9,6 @@ import orjson
 from pydantic import Field
 
 import core
-from app.cards.proposals import Card, Cards
 from app.questions.check import Failure
 from app.wire.dances import DragonFields, VenueFields
 from app.wire.degrees import GeographicOrigin, Place
@@ -17,6 +16,7 @@ from app.wire.fields import Angle, Answer, Margin, OneLine, SpeedLimit, Whole, W
 from app.wire.geojson import venue_geometry
 from app.wire.labels import Heading, Part, Table, value_word
 from app.wire.paths import Point, path_of
+from app.wire.proposal_cards import Card, Cards
 from app.wire.question import Command, Output, Question, Terms, Writer
 from core.dragon import BENCHES_MAX
 from core.language import Language, say

@@ -76,7 +76,7 @@ JUSTIFIED: Phrases = {
 ENDS: Phrases = {
     EndReason.CENTRE: "The head is at the centre.",
     EndReason.END: "The head is at the end of its path.",
-    EndReason.STOP: "The head is at the end of its path.",
+    EndReason.STOP: "The time that was asked about is over.",
 }
 # A beginning that is so far from 0 is worth a word [s].
 SHOWN = 0.05

@@ -21,6 +21,8 @@ TWO = Performance([Part(STREET, 5.0, "east"), Part(STREET, -2.0, "west")])
         ("parts", lambda: Performance([Part(STREET)] * 201)),
         ("parts", lambda: Performance([Part(LONG[1]), *[Part(LONG[0])] * 199])),
         ("parts.1.name", lambda: Performance([Part(STREET, name="east")] * 2)),
+        ("colour", lambda: Part(STREET, colour="red")),
+        ("colour", lambda: Part(STREET, colour=7)),
         ("delay", lambda: Part(STREET, 1.001e6)),
         ("stop", lambda: TWO.span(5.0, 5.0)),
         ("parts.0", lambda: Performance([STREET])),
