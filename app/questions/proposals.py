@@ -16,7 +16,7 @@ from app.wire.fields import Angle, Answer, Margin, OneLine, SpeedLimit, Whole, W
 from app.wire.geojson import venue_geometry
 from app.wire.labels import Heading, Part, Table, value_word
 from app.wire.paths import Point, path_of
-from app.wire.proposal_cards import Card, Cards
+from app.wire.proposal_cards import ProposalCard, ProposalCards
 from app.wire.question import Command, Output, Question, Terms, Writer
 from core.dragon import BENCHES_MAX
 from core.language import Language, say
@@ -118,10 +118,10 @@ class Proposal(Answer):
     near: core.Near = Field(description="What the benches come nearest to")
     gates: list[int] = Field(description="Numbers of the gates by which it enters and leaves; none without gates")
     summary: str = Field(description="The proposal in one sentence")
-    cards: dict[Language, Card] = Field(description="What to say of it beside the others, in every language")
+    cards: dict[Language, ProposalCard] = Field(description="What to say of it beside the others, in every language")
 
     @classmethod
-    def of(cls, result: core.Proposal, body: dict[str, Any], cards: dict[Language, Card]) -> Self:
+    def of(cls, result: core.Proposal, body: dict[str, Any], cards: dict[Language, ProposalCard]) -> Self:
         speed = result.report.highest_speed
         own = {"highest_speed": speed and speed.speed, "summary": result.message, "cards": cards}
         return cls.from_result(result, dance=body, **own)
@@ -202,7 +202,7 @@ def _worded(request: ProposalsRequest, found: Sequence[core.Proposal], place: Pl
     """Proposals with their cards, each beside the others."""
     assert place.venue is not None
     names = [gate.name or say("gate {k}", k=k) for k, gate in enumerate(request.gates)]
-    cards = Cards(found, place.venue.square, names, request.stray)
+    cards = ProposalCards(found, place.venue.square, names, request.stray)
     return [Proposal.of(one, body_of(request, one, place.origin), cards.of(k)) for k, one in enumerate(found)]
 
 

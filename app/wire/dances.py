@@ -241,7 +241,7 @@ class PathFields(HeadSpeed, DragonFields, strict=True):
         return music.passages
 
 
-class Wishes(Wire, strict=True):
+class TypedWishes(Wire, strict=True):
     """What a dance was wished for on the page when it was proposed, as typed there."""
 
     end_by: str | None = Field(None, max_length=40, description="When it must end: a time of day, or minutes")
@@ -253,7 +253,7 @@ class DanceFields(PathFields, strict=True):
 
     start_clock: StartClock = None
     begin_clock: BeginClock = None
-    wishes: Wishes | None = Field(
+    wishes: TypedWishes | None = Field(
         None, description="What the next dance on the page is wished for; no answer depends on it"
     )
 

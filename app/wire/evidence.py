@@ -82,7 +82,7 @@ ENDS: Phrases = {
 SHOWN = 0.05
 
 
-class Judged(Answer):
+class EngineTable(Answer):
     """Verdicts of the engines as a table in words."""
 
     caption: str = Field(description="Who judged what, and whether they agree")
@@ -99,7 +99,7 @@ class Words(Answer):
     notes: list[str] = Field(
         [], description="How it is known, in sentences, without those of a certificate beside them"
     )
-    engines: Judged | None = Field(None, description="Verdicts of the engines; null without any")
+    engines: EngineTable | None = Field(None, description="Verdicts of the engines; null without any")
 
 
 class ContactWords(Words):
@@ -144,7 +144,7 @@ class Contacts:
     def pair(self, benches: Sequence[int]) -> dict[str, str]:
         return dict(zip("ab", self.names(benches), strict=True))
 
-    def engines(self, check: core.ContactCheck | None) -> Judged | None:
+    def engines(self, check: core.ContactCheck | None) -> EngineTable | None:
         """The table of the engines."""
         if check is None:
             return None
@@ -166,7 +166,7 @@ class Contacts:
             [say(ENGINES[engine]), self.worded(str(one.before)), self.worded(str(one.after))]
             for engine, one in check.engines.items()
         ]
-        return Judged(caption=joined(caption), rows=[heads, *rows])
+        return EngineTable(caption=joined(caption), rows=[heads, *rows])
 
 
 def _digits(value: float, decimals: int) -> str:

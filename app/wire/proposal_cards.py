@@ -28,7 +28,7 @@ EQUAL = 1e-3
 LONG, POINTS = 120, 400
 
 
-class Card(Answer):
+class ProposalCard(Answer):
     """A proposed dance in words."""
 
     title: str = Field(description="Its figure, and what tells it from the others of that figure")
@@ -39,8 +39,8 @@ class Card(Answer):
 
 
 @dataclass(frozen=True)
-class Cards:
-    """Cards of dances that were proposed together.
+class ProposalCards:
+    """ProposalCards of dances that were proposed together.
 
     found: the dances; square: in which they are danced; gates: names of all gates; stray: that was asked for [m]
     """
@@ -50,7 +50,7 @@ class Cards:
     gates: Sequence[str]
     stray: float
 
-    def of(self, k: int) -> dict[Language, Card]:
+    def of(self, k: int) -> dict[Language, ProposalCard]:
         """The card of dance k in every language."""
         cards = {}
         for language in Language:
@@ -58,7 +58,7 @@ class Cards:
                 cards[language] = self._card(k)
         return cards
 
-    def _card(self, k: int) -> Card:
+    def _card(self, k: int) -> ProposalCard:
         one = self.found[k]
         seconds, benches = round(one.duration), one.dance.dragon.benches
         time = say("{seconds} s", seconds=seconds)
@@ -66,7 +66,7 @@ class Cards:
             time = say("{minutes} min {seconds} s", minutes=seconds // 60, seconds=seconds % 60)
         size = phrase("{benches} benches, {time}; the head walks {length} m")
         comma, tight = say(", "), self._tight(one)
-        return Card(
+        return ProposalCard(
             title=self._title(k),
             size=say(size, benches=benches, time=time, length=f"{one.length:.0f}"),
             good=comma.join(self._good(one)),
