@@ -117,7 +117,6 @@ def _why(error: OSError) -> Note | str | None:
 def _row_of(file: Path, team: str, graded: FileAnswer, data: bytes) -> Row:
     """A file on the table of its class."""
     cells, right, missing = _counts(graded)
-    digest = hashlib.sha256(data).hexdigest()
     return Row(
         team.translate(ESCAPED),
         file.name.translate(ESCAPED),
@@ -126,7 +125,8 @@ def _row_of(file: Path, team: str, graded: FileAnswer, data: bytes) -> Row:
         cells,
         right,
         missing,
-        digest,
+        digest=hashlib.sha256(data).hexdigest(),
+        rounded=sum(one.rounded for one in graded.sheets),
     )
 
 

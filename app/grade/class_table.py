@@ -32,7 +32,8 @@ POINTS_MAX, DECIMALS = 1000.0, 1
 class Row:
     """A graded file. team, file: names; workbook: result1, result2, result4 or None; digest: of its bytes
 
-    cells, right, missing: numbers of its cells that the contest requires, that are right, and that are missing
+    cells, right, rounded, missing: numbers of its cells that the contest requires, that are right, that are right to
+        fewer decimals, and that are missing
     """
 
     team: str
@@ -43,6 +44,7 @@ class Row:
     right: int
     missing: int
     digest: str = ""
+    rounded: int = 0
 
 
 def rubric_of(text: str) -> dict[str, float]:
@@ -78,11 +80,10 @@ def rubric_text(rubric: dict[str, float]) -> str:
 
 
 def points_of(row: Row, rubric: dict[str, float]) -> float:
-    """Points of a file: all for right numbers, a share for rounded ones, else by the cells that are right."""
+    """Points of a file: a cell that is right has an equal part of them, one that is rounded a share of that part."""
     if row.workbook not in WORKBOOKS or not row.cells:
         return 0.0
-    shares = {Rating.RIGHT: 1.0, Rating.ROUNDED: rubric[ROUNDED], Rating.UNREADABLE: 0.0}
-    return round(rubric[row.workbook] * shares.get(row.verdict, row.right / row.cells), DECIMALS)
+    return round(rubric[row.workbook] * (row.right + rubric[ROUNDED] * row.rounded) / row.cells, DECIMALS)
 
 
 def team_points(rows: Sequence[Row], rubric: dict[str, float]) -> list[tuple[str, float]]:

@@ -95,6 +95,8 @@ def why_unexplained(judgements: list[JudgedSheet]) -> Note:
     """Why wrong numbers have no cause: they are too few, have too few decimals, or no known error gives them."""
     if (count := _numbers_of(judgements)) < DECISIVE_LEAST:
         return _few_numbers(judgements, count)
+    if 0 < (slips := sum(one.wrong for one in judgements)) < DECISIVE_LEAST:
+        return note("slip") if slips == 1 else note("slips", count=slips)
     wrong = [one for one in judgements if one.verdict is Rating.WRONG]
     return note("nothing_fits") if shows_errors(wrong) else note("too_few_decimals", least=DECIMALS_LEAST)
 
@@ -401,7 +403,8 @@ def _part(one: JudgedSheet, kind: TableKind) -> JudgedSheet:
     values, table = one.values[..., components], replace(one.table, kind=kind)
     digits = digits_of(values, one.written)
     written = usual_of(digits, values)
-    return replace(one, table=table, values=values, wanted=one.wanted[..., components], written=written, digits=digits)
+    parts = {name: getattr(one, name)[..., components] for name in ("wanted", "rounded")}
+    return replace(one, table=table, values=values, written=written, digits=digits, **parts)
 
 
 def _instants(one: JudgedSheet, seen: SheetClues, image: Floats) -> Span | None:

@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from typing import Any
 
 import numpy as np
 
@@ -25,8 +26,9 @@ from core.values import Floats
 NAME_OF_WORKBOOK = re.compile(r"result\s*_?([124])(?!\d)", re.IGNORECASE)
 # Tolerance of six decimals: half a unit of the last, and 2 % more for numbers that were rounded twice [m, m/s, s].
 RIGHT = 5.1e-7
-# Tolerance of k decimals, fewer than six, in units of 10^-k; such numbers count as rounded.
-ROUNDED, DECIMALS = 0.51, (5, 4, 3, 2)
+# Tolerance of k decimals, fewer than six, in units of 10^-k, beside half a unit of the sixth decimal [m, m/s]: many
+# numbers were rounded to six decimals before. Such numbers count as rounded.
+ROUNDED, BEFORE, DECIMALS = 0.51, 5e-7, (5, 4, 3, 2)
 # Decimals that the contest asks for; and largest difference of numbers that count as equal [m, m/s].
 DECIMALS_OF_CONTEST, FLAT = 6, 2e-6
 # Error of a student's own arithmetic, in addition to the rounding of the written decimals [m, m/s].
@@ -61,6 +63,11 @@ class Rating(StrEnum):
     UNREADABLE = "unreadable"
 
 
+def rounding_of(decimals: Any) -> Any:
+    """Distance of a number with so many decimals from the one that was rounded to it [m, m/s]: of one, or of many."""
+    return ROUNDED * 10.0**-decimals + BEFORE * (decimals < DECIMALS_OF_CONTEST)
+
+
 def worst_of(verdicts: Iterator[Rating]) -> Rating:
     return max(verdicts, key=list(Rating).index, default=Rating.UNREADABLE)
 
@@ -73,6 +80,7 @@ class JudgedSheet:
     decimals: number to which the numbers are right, if they are rounded; written: decimals that its numbers usually
         have; digits: those with which each number counts (T, H, C)
     cells: number that the contest requires; right, missing: how many of them
+    rounded: the numbers (T, H, C) that are not right, but to their decimals, or to two
     """
 
     table: SheetTable
@@ -83,6 +91,7 @@ class JudgedSheet:
     digits: Ints
     cells: int
     right: int
+    rounded: Mask
     missing: int
     times: Floats
     handles: Ints
@@ -119,7 +128,7 @@ class JudgedSheet:
     @property
     def rounding(self) -> Floats:
         """Distance of each number (T, H, C) from the one that was rounded to it [m, m/s]."""
-        return np.asarray(ROUNDED * 10.0**-self.digits)
+        return np.asarray(rounding_of(self.digits))
 
     @property
     def tolerance(self) -> Floats:
@@ -129,7 +138,7 @@ class JudgedSheet:
     @property
     def usual_tolerance(self) -> float:
         """The tolerance of most numbers [m, m/s]."""
-        return ROUNDED * 10.0**-self.written + ARITHMETIC
+        return float(rounding_of(self.written)) + ARITHMETIC
 
     @property
     def is_off(self) -> bool:
@@ -141,14 +150,26 @@ class JudgedSheet:
         """True if every number is the right one, rounded to its decimals."""
         return not bool((self.off > self.rounding).any())
 
+    @property
+    def _is_wrong(self) -> Mask:
+        """The numbers (T, H, C) that are wrong: those that are only rounded count where no others are."""
+        wrong = self.off > RIGHT
+        further = wrong & ~self.rounded
+        return np.asarray(further if further.any() else wrong)
+
+    @property
+    def wrong(self) -> int:
+        """Number of the cells that are wrong, and not only rounded."""
+        return int(((self.off > RIGHT) & ~self.rounded).sum())
+
     def worst(self) -> tuple[int, ...] | None:
-        """Index of the number with the largest error; None if all are right."""
-        off = np.nan_to_num(self.off)
+        """Index of the wrong number with the largest error; None if all are right."""
+        off = np.where(self._is_wrong, self.off, 0.0)
         return tuple(map(int, np.unravel_index(off.argmax(), off.shape))) if off.size and off.max() > RIGHT else None
 
     def first(self) -> tuple[int, ...] | None:
         """Index of the first wrong number of the sheet in reading order."""
-        wrong = self.off > RIGHT
+        wrong = self._is_wrong
         if not wrong.any():
             return None
         reading = np.where(wrong, self.table.row * (self.table.column.max() + 1) + self.table.column, np.inf)
@@ -158,7 +179,7 @@ class JudgedSheet:
         """Lines of marks: a line for some handles, the head first; a mark for some instants, or for x, y and speed."""
         off = self.off
         level = np.where(off > RIGHT, 1, 0)
-        level[off > ROUNDED * 10.0 ** -DECIMALS[-1]] = 2
+        level[off > rounding_of(DECIMALS[-1])] = 2
         level[np.isnan(off)] = 3
         level = level[0].T if len(level) == 1 else level.max(axis=2)
         level = level.T[np.argsort(self.handles)]
@@ -221,13 +242,15 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
     off, cells = np.abs(values - wanted), cells_of(workbook, table.kind)
     present, right = int((~np.isnan(off)).sum()), int((off <= RIGHT).sum())
     largest = float(np.nanmax(off)) if present else np.inf
-    decimals = next((k for k in DECIMALS if largest <= ROUNDED * 10.0**-k), None)
+    decimals = next((k for k in DECIMALS if largest <= rounding_of(k)), None)
     digits = digits_of(values, decimals_beside)
     written = usual_of(digits, values)
-    if decimals is None and written == 1 and not (off > ROUNDED * 10.0**-digits).any():
+    if decimals is None and written == 1 and not (off > rounding_of(digits)).any():
         decimals = 1
-    if decimals is not None and decimals < _decimals_of_flat(values, wanted, max(written, decimals_beside)):
-        decimals = None
+    near = (off <= rounding_of(DECIMALS[-1])) | ((digits > 0) & (off <= rounding_of(digits)))
+    if (flat := _decimals_of_flat(values, wanted, max(written, decimals_beside))) >= 0:
+        near &= off <= rounding_of(flat)
+        decimals = None if decimals is not None and decimals < flat else decimals
     if not present:
         notes.append(note("no_numbers", handles=int(known.sum()), kind=note(SHEETS[table.kind])))
     if has_fewer and decimals == DECIMALS[-1]:
@@ -247,6 +270,7 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
         digits=digits,
         cells=cells,
         right=right,
+        rounded=np.asarray(near & (off > RIGHT)),
         missing=missing,
         times=times,
         handles=handles,
@@ -269,8 +293,14 @@ def _rating(present: int, cells: int, largest: float, *, is_rounded: bool) -> Ra
 
 def with_errors(judgements: list[JudgedSheet], kinds: set[TableKind]) -> list[JudgedSheet]:
     """Judgements after the diagnosis. kinds: of the sheets whose digits decide for an error: they were not rounded"""
+    wrong = {component for kind in kinds for component in COMPONENTS[kind]}
     return [
-        replace(one, verdict=Rating.WRONG, decimals=None)
+        replace(
+            one,
+            verdict=Rating.WRONG,
+            decimals=None,
+            rounded=one.rounded & ~np.isin(one.components, list(wrong)),
+        )
         if kinds and one.table.kind in kinds | {TableKind.CONTACT}
         else one
         for one in judgements

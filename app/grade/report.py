@@ -82,6 +82,7 @@ class SheetAnswer(Answer):
     decimals: decimals to which all cells that have numbers are right, if they are rounded; else null
     cells: cells that the contest requires
     right: cells that are right within 5.1e-7
+    rounded: further cells that are right to their decimals, or to two
     missing: cells that are missing
     worst: the cell with the largest error; null if none is wrong
     first: the first wrong cell, row by row; null if none is wrong
@@ -97,6 +98,7 @@ class SheetAnswer(Answer):
     decimals: int | None
     cells: int
     right: int
+    rounded: int = Field(default=0)
     missing: int
     worst: CellAnswer | None
     first: CellAnswer | None
@@ -275,8 +277,22 @@ def _graded(name: str, data: bytes, budget: Budget) -> FileAnswer:
         sheets=sheets,
         rubric=[CriterionAnswer(criterion=one.name, met=one.met, words=str(one.sentence)) for one in rubric],
         notes=[str(one) for one in notes],
-        headline=word(verdict.value),
+        headline=_headline(verdict, judgements),
     )
+
+
+def _headline(verdict: Rating, judgements: Sequence[JudgedSheet]) -> str:
+    """The verdict on a file, with the decimals to which its numbers are right."""
+    if verdict is not Rating.ROUNDED:
+        return word(verdict.value)
+    least = min((one for one in judgements if one.decimals is not None), key=lambda one: one.decimals or 0)
+    return str(_to_decimals(least))
+
+
+def _to_decimals(one: JudgedSheet) -> Note:
+    """To how many decimals the numbers of a sheet are right."""
+    words = "rounded_to_decimal" if one.decimals == 1 else "rounded_to_decimals"
+    return note(words if one.is_rounded else "right_near", decimals=one.decimals, written=int(one.digits.max()))
 
 
 def typed(name: str, text: str) -> TypedAnswer:
@@ -336,18 +352,19 @@ def _guessed(findings: Sequence[Finding]) -> list[GuessAnswer]:
 def _sheet(one: JudgedSheet) -> SheetAnswer:
     worst, first, notes = one.worst(), one.first(), [*one.notes]
     is_rounded = one.verdict in (Rating.ROUNDED, Rating.INCOMPLETE) and one.decimals is not None
+    said = _to_decimals(one) if is_rounded and one.verdict is Rating.ROUNDED else note(one.verdict.value)
     if is_rounded and one.verdict is Rating.INCOMPLETE:
-        words = "given_to_decimal" if one.decimals == 1 else "given_to_decimals"
-        notes.append(note(words, count=f"{one.cells - one.missing:,}", decimals=one.decimals))
-    if is_rounded and not one.is_rounded:
-        notes.append(note("not_rounded", written=int(one.digits.max()), decimals=one.decimals))
+        notes.append(note("given", count=f"{one.cells - one.missing:,}", how=_to_decimals(one)))
     return _worded(
+        said,
+        shows_cells=one.verdict is Rating.WRONG or (one.verdict is Rating.ROUNDED and not one.is_rounded),
         sheet=str(one.title),
         holds=one.table.kind.value,
         verdict=one.verdict,
         decimals=one.decimals if is_rounded else None,
         cells=one.cells,
         right=one.right,
+        rounded=int(one.rounded.sum()),
         missing=one.missing,
         worst=worst and _cell(one, worst),
         first=first and _cell(one, first),
@@ -356,18 +373,15 @@ def _sheet(one: JudgedSheet) -> SheetAnswer:
     )
 
 
-def _worded(**own: Any) -> SheetAnswer:
-    """A sheet with its sentences. own: its other fields"""
+def _worded(said: Note, *, shows_cells: bool, **own: Any) -> SheetAnswer:
+    """A sheet with its sentences. said: its verdict; shows_cells: with its worst and first cell; own: other fields"""
     sheet = SheetAnswer(**own)
-    verdict = word(sheet.verdict.value)
-    if sheet.verdict is Rating.ROUNDED and sheet.decimals:
-        form = "rounded_to_decimal" if sheet.decimals == 1 else "rounded_to_decimals"
-        verdict = word(form, decimals=sheet.decimals)
-    counts = {"right": f"{sheet.right:,}", "cells": f"{sheet.cells:,}"}
+    line = "sheet_line_rounded" if sheet.rounded else "sheet_line"
+    counts = {name: f"{getattr(sheet, name):,}" for name in ("right", "rounded", "cells")}
     title = sheet.sheet or word(SHEETS[TableKind(sheet.holds)])
-    sentences = [word("sheet_line", title=title, verdict=verdict, **counts), *sheet.notes]
+    sentences = [word(line, title=title, verdict=said, **counts), *sheet.notes]
     for name, cell in (("worst", sheet.worst), ("first", sheet.first)):
-        if cell and sheet.verdict in (Rating.WRONG, Rating.ROUNDED):
+        if cell and shows_cells:
             values = {"found": f"{cell.found:.6f}", "expected": f"{cell.expected:.6f}", "time": f"{cell.time:.9g}"}
             quantity = word("quantity_speed") if cell.quantity == "speed" else cell.quantity
             sentences.append(word(f"{name}_cell", cell=cell.cell, handle=cell.handle, quantity=quantity, **values))
@@ -393,6 +407,6 @@ def _cell(one: JudgedSheet, at: tuple[int, ...]) -> CellAnswer:
 def _lacking(kind: TableKind, cells: int) -> SheetAnswer:
     sentence = word("no_sheet", kind=word(SHEETS[kind]))
     return _worded(
-        sheet="", holds=kind.value, verdict=Rating.INCOMPLETE, decimals=None, cells=cells, right=0, missing=cells,
-        worst=None, first=None, picture=[], notes=[sentence],
+        note("incomplete"), shows_cells=False, sheet="", holds=kind.value, verdict=Rating.INCOMPLETE, decimals=None,
+        cells=cells, right=0, missing=cells, worst=None, first=None, picture=[], notes=[sentence],
     )  # fmt: skip

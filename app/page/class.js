@@ -96,7 +96,7 @@ async function digestOf(file) {
 export async function rowOf({ file, team }, graded) {
   const sum = (name) => (graded?.sheets ?? []).reduce((all, sheet) => all + sheet[name], 0);
   const finding = graded?.diagnosis[0]?.words ?? graded?.notes[0] ?? "";
-  return { team: (team || file.name).slice(0, 200), file: file.name.slice(-200), workbook: graded?.workbook ?? null, verdict: graded?.verdict ?? "unreadable", cells: sum("cells"), right: sum("right"), missing: sum("missing"), finding: finding.slice(0, 1_000), digest: await digestOf(file) };
+  return { team: (team || file.name).slice(0, 200), file: file.name.slice(-200), workbook: graded?.workbook ?? null, verdict: graded?.verdict ?? "unreadable", cells: sum("cells"), right: sum("right"), rounded: sum("rounded"), missing: sum("missing"), finding: finding.slice(0, 1_000), digest: await digestOf(file) };
 }
 
 /** The table of a class. */

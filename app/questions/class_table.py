@@ -29,12 +29,21 @@ class GradedFile(Wire, strict=True):
     verdict: Rating = Field(description="Its verdict", strict=False)
     cells: Whole = Field(0, ge=0, le=CELLS_MAX, description="Number of cells that the contest requires")
     right: Whole = Field(0, ge=0, le=CELLS_MAX, description="Number of those that are right")
+    rounded: Whole | None = Field(
+        None,
+        ge=0,
+        le=CELLS_MAX,
+        description="Number of those that are not right, but to their decimals; null: all others, if the verdict is so",
+    )
     missing: Whole = Field(0, ge=0, le=CELLS_MAX, description="Number of those that are missing")
     finding: str = Field("", max_length=1_000, description="The error behind wrong cells, in words")
     digest: OneLine = Field("", max_length=128, description="Digest of its bytes, such as SHA-256; empty: not compared")
 
     def to_row(self) -> Row:
-        counts = {"cells": self.cells, "right": self.right, "missing": self.missing}
+        rounded = self.rounded
+        if rounded is None:
+            rounded = self.cells - self.right - self.missing if self.verdict is Rating.ROUNDED else 0
+        counts = {"cells": self.cells, "right": self.right, "rounded": rounded, "missing": self.missing}
         return Row(self.team, self.file, self.workbook, self.verdict, **counts, digest=self.digest)
 
 

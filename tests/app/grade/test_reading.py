@@ -117,7 +117,10 @@ def test_a_few_rounded_instants_are_incomplete_and_right_to_their_decimals(decim
     sheet = grade(students.lines([part.round(decimals) for part in spiral(times)], times)).sheets[0]
     assert sheet.verdict == "incomplete"
     assert sheet.decimals == decimals
-    assert f"The 1,792 cells that have a number are right to {decimals} decimal{'s' * (decimals > 1)}." in sheet.notes
+    assert (
+        f"The 1,792 cells that have a number are right, rounded to {decimals} decimal{'s' * (decimals > 1)}."
+        in sheet.notes
+    )
 
 
 def trap(place, text, coding="utf-8"):

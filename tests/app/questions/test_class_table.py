@@ -2,6 +2,7 @@
 
 import csv
 import io
+from dataclasses import replace
 
 import openpyxl
 import pytest
@@ -11,7 +12,7 @@ from app.grade.judged import Rating
 from tests.support.asking import assert_problem
 
 RIGHT = {"team": "Red", "file": "result1.xlsx", "workbook": "result1", "verdict": "right", "cells": 200, "right": 200}
-ROUNDED = {"team": "Red", "file": "result2.xlsx", "workbook": "result2", "verdict": "rounded", "cells": 100, "right": 3}
+ROUNDED = {"team": "Red", "file": "result2.xlsx", "workbook": "result2", "verdict": "rounded", "cells": 100, "right": 0}
 HALF = {**RIGHT, "team": "Gold", "verdict": "wrong", "right": 100, "finding": "=SUM(A1)"}
 PICTURE = {"team": "Gold", "file": "photo.png", "verdict": "unreadable"}
 CLASS = [RIGHT, ROUNDED, HALF, PICTURE]
@@ -32,6 +33,15 @@ def test_points_follow_the_rubric_and_teams_are_ordered_by_them(client):
     chinese = client.post("/class-table", json={"files": CLASS}, headers={"Accept-Language": "zh"}).json()
     assert chinese["heads"][0] == "队伍"
     assert chinese["rows"][0][3] == "正确"
+
+
+def test_points_fall_by_what_is_wrong_and_by_no_more():
+    """A result1 of four decimals, and the same one with one slip; and no share for what is near by chance."""
+    cells = 202_272
+    rounded = Row("Red", "a", "result1", Rating.ROUNDED, cells, 2_000, 0, rounded=cells - 2_000)
+    slip = replace(rounded, verdict=Rating.WRONG, rounded=cells - 2_001)
+    half = replace(rounded, verdict=Rating.WRONG, rounded=cells // 2 - 2_000)
+    assert [points_of(one, rubric_of("")) for one in (rounded, slip, half)] == [36.0, 36.0, 18.0]
 
 
 def test_the_table_opens_in_a_spreadsheet_and_no_cell_is_a_formula(client):
