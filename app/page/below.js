@@ -4,7 +4,6 @@ import { Crew } from "./crew.js";
 import { Designs } from "./designs.js";
 import { Grader } from "./grade.js";
 import { Keep } from "./keep.js";
-import { say } from "./text.js";
 
 export class Below {
   /**
@@ -24,12 +23,6 @@ export class Below {
   show() {
     this.keep.show();
     this.crew.show();
-  }
-
-  /** paths: of the OpenAPI document; limits: name -> [low, high, unit] */
-  learn(paths, limits) {
-    this.map.learn(Object.fromEntries(Object.entries(limits).map(([name, [, , unit]]) => [name, unit === "turns" ? say("turns") : unit])));
-    this.keep.offer(paths);
   }
 
   translate(language) {

@@ -2,6 +2,7 @@
 
 import { tableOf, tableText } from "./benches.js";
 import { $, bearer, make, textButton } from "./elements.js";
+import { LABELS } from "./fields.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { Pause } from "./pending.js";
 import { language, nameBenches, say, sentencesOf } from "./text.js";
@@ -33,7 +34,7 @@ export class BenchTable {
     this.service = service;
     this.title = make("summary");
     const described = { "aria-describedby": "csv-help csv-error" };
-    this.text = make("textarea", { id: "csv", rows: ROWS, spellcheck: false, wrap: "off", "data-label": "Benches measured one by one", ...described });
+    this.text = make("textarea", { id: "csv", rows: ROWS, spellcheck: false, wrap: "off", "data-label": LABELS.csv, ...described });
     this.file = make("input", { type: "file", id: "csv-file", accept: ".csv,.tsv,.txt,.xlsx", "data-label": "Open a table …", hidden: true });
     this.error = make("p", { id: "csv-error", className: "error", hidden: true });
     this.note = make("p", { className: "hint" });
@@ -103,7 +104,7 @@ export class BenchTable {
     this.group.classList.toggle("listed", Boolean(csv));
     $("#csvBegin").hidden = Boolean(csv);
     $("#csvClear").hidden = !csv;
-    this.title.textContent = csv ? say("Benches measured one by one: {count}", { count: listed.lengths.length }) : say("Benches measured one by one");
+    this.title.textContent = csv ? say("Benches measured one by one: {count}", { count: listed.lengths.length }) : say(LABELS.csv);
     this.note.textContent = csv && !this.state.fits ? say("This table is too long for an address: save it as a file to share it.") : "";
   }
 

@@ -4,7 +4,7 @@
  */
 
 import { $$, button, make, onClick, onSlide } from "./elements.js";
-import { EMPTY_NAMES, FIELDS, HELPS, LABELS } from "./fields.js";
+import { EMPTY_NAMES, FIELDS, HINTS, LABELS, LIMITS } from "./fields.js";
 import { Pause } from "./pending.js";
 import { say } from "./text.js";
 
@@ -21,16 +21,6 @@ const TYPING = 300;
 const ENDS = ["min", "max"];
 /** Number -> part of the bench in the sketch. */
 const PARTS = { head_length: "length", body_length: "length", width: "width", overhang: "overhang", hole: "hole", pin: "hole" };
-
-/** Limits and unit of every number: name -> [low, high, unit]. paths: of the service's OpenAPI document */
-export function limitsIn(paths) {
-  const parameters = ["/maximum-head-speed", "/collision-time", "/minimum-pitch"].flatMap((path) => paths[path].get.parameters);
-  const limits = ({ anyOf, ...own }) => {
-    const { minimum, exclusiveMinimum, maximum } = anyOf?.[0] ?? own;
-    return [minimum ?? exclusiveMinimum, maximum, own["x-unit"]];
-  };
-  return Object.fromEntries(parameters.map(({ name, schema }) => [name, limits(schema)]));
-}
 
 /** A typed number, also with a decimal comma, the only one on some phones. */
 const typed = (text) => text.trim().replace(/^([-+]?\d*),(\d+)$/, "$1.$2");
@@ -84,7 +74,7 @@ export class Controls {
     this.#rows.set(name, row);
     this.#show(name);
     const label = make("label", { htmlFor: name, "data-text": LABELS[name] });
-    const help = make("span", { id: `${name}-help`, className: "help", "data-text": HELPS[name] });
+    const help = make("span", { id: `${name}-help`, className: "help", "data-text": HINTS[name] });
     const what = make("div", { className: "what" }, label, help, row.limits);
     row.box = make("div", { className: "field", "data-field": name, "data-doors": doors.join(" ") }, what, row.text, row.unit, row.reset, row.ends[0], row.slider, row.ends[1], row.error);
     return row.box;
@@ -127,16 +117,15 @@ export class Controls {
     row.reset.disabled = this.state.get(name) === this.state.initial(name);
   }
 
-  /** limits: name -> [low, high, unit] as the service states them */
-  translate(limits) {
+  translate() {
     for (const [name, row] of this.#rows) {
       const nameOfField = { name: say(LABELS[name]) };
       row.slider.setAttribute("aria-label", say("{name}, slider", nameOfField));
       row.reset.setAttribute("aria-label", say("Reset {name}", nameOfField));
       row.ends.forEach((field, k) => field.setAttribute("aria-label", say(ENDS[k] === "min" ? "Slider of {name} begins at" : "Slider of {name} ends at", nameOfField)));
-      const [low, high, unit = ""] = limits[name] ?? [];
+      const [low, high, unit = ""] = LIMITS[name];
       row.unit.textContent = unit === "turns" ? say("turns") : FACTORS[name] > 1 ? "cm" : unit;
-      row.limits.textContent = low === undefined ? "" : say(name === "stray" ? "{low} to half of the shortest distance between two handles" : "{low} to {high}", { low: low * FACTORS[name], high: high * FACTORS[name] });
+      row.limits.textContent = say(name === "stray" ? "{low} to half of the shortest distance between two handles" : "{low} to {high}", { low: low * FACTORS[name], high: high * FACTORS[name] });
       if (this.state.initial(name) === "") row.text.placeholder = say(EMPTY_NAMES[name]);
     }
   }

@@ -2,13 +2,15 @@
 
 import { Problem, Superseded } from "./api.js";
 import { $, button, download, make, numberIn, textButton } from "./elements.js";
+import { LABELS } from "./fields.js";
 import { announce } from "./overlays.js";
 import { clockIn } from "./passages.js";
 import { benchTitle, between, language, phrase, say } from "./text.js";
 
-/** Numbers of the form: the field of the service, its key, its first value; an empty one is left to the service. */
-const NUMBERS = { head_people: [phrase("on the head"), "8"], bench_people: [phrase("on every other bench"), "2"], spares: [phrase("spares"), "0"], shift: [phrase("shift [s]"), ""], rest: [phrase("least rest [s]"), "0"] };
-const POINT = { x: [phrase("change near x [m]"), ""], y: [phrase("and y [m]"), ""] };
+/** Numbers of the form: the field of the service, its first value; an empty one is left to the service. */
+const NUMBERS = { head_people: "8", bench_people: "2", spares: "0", shift: "", rest: "0" };
+/** @type {Phrases} */
+const POINT = { x: "change near x [m]", y: "and y [m]" };
 const FORMS = { A4: "application/pdf", A3: "application/pdf", CSV: "text/csv" };
 const MINUTE = 60;
 
@@ -31,7 +33,7 @@ export class Crew {
     this.service = service;
     this.questions = questions;
     this.player = player;
-    const field = ([name, [words, value]]) => make("label", { className: "line" }, make("span", { "data-text": words }), make("input", { id: `crew-${name}`, value, inputMode: "decimal", autocomplete: "off" }));
+    const field = ([name, value]) => make("label", { className: "line" }, make("span", { "data-text": POINT[name] ?? LABELS[name] }), make("input", { id: `crew-${name}`, value, inputMode: "decimal", autocomplete: "off" }));
     this.at = make("input", { id: "crew-at", autocomplete: "off", placeholder: "0" });
     this.result = make("div", { id: "crew-result", "aria-live": "polite" });
     const save = Object.keys(FORMS).map((form) => button({ id: `crew-${form}`, textContent: form }, () => this.#save(form)));
@@ -40,8 +42,8 @@ export class Crew {
       { id: "crew" },
       make("summary", { "data-text": "Who carries when" }),
       make("p", { className: "hint", "data-text": "People change after a shift, or where a bench passes a point; spares come in. Empty: not so." }),
-      ...Object.entries({ ...NUMBERS, ...POINT }).map(field),
-      make("label", { className: "line" }, make("span", { "data-text": "Who is where at [s], or 19:45" }), this.at),
+      ...Object.entries({ ...NUMBERS, x: "", y: "" }).map(field),
+      make("label", { className: "line" }, make("span", { "data-text": LABELS.at }), this.at),
       make("p", { className: "buttons" }, textButton("Plan the crew", () => this.#ask(), { className: "main", id: "crew-ask" }), ...save),
       this.result,
     );

@@ -1,7 +1,7 @@
 /** The numbers that a person may set, and groups of them. */
 
 /**
- * The numbers a person may set. Limits and units come from the service's OpenAPI document; `slider` is a useful range to
+ * The numbers a person may set. `slider` is a useful range to
  * begin with: [from, to, step]; only: the path that has this number; centimetres: the unit here and on the slider;
  * doors: behind which it is one of the few numbers. An
  * empty text leaves the number to the service.
@@ -27,49 +27,8 @@ export const FIELDS = [
   { name: "pin", value: "0", group: "people", slider: [0, 10, 0.1], centimetres: true },
 ];
 
-/** Labels of the numbers, and of what else a refusal may be about. @type {Phrases} */
-export const LABELS = {
-  pitch: "Pitch",
-  start_turns: "Head starts",
-  turning_diameter: "Turning circle",
-  ratio: "Arc ratio",
-  entry_radius: "Turn entry",
-  exit_radius: "Turn exit",
-  benches: "Benches",
-  head_length: "Head length",
-  body_length: "Body length",
-  width: "Width",
-  overhang: "Handle to end",
-  head_speed: "Head speed",
-  margin: "Margin",
-  speed_limit: "Speed limit",
-  stray: "Stray",
-  hole: "Hole",
-  pin: "Pin",
-  csv: "Benches measured one by one",
-  passages: "Slower, faster, pauses",
-  begin_clock: "Starts at",
-};
-/** What each number is. @type {Phrases} */
-export const HELPS = {
-  pitch: "between two rings",
-  start_turns: "turns from the centre",
-  turning_diameter: "its diameter",
-  ratio: "first : second",
-  entry_radius: "from the centre",
-  exit_radius: "from the centre",
-  benches: "with head and tail",
-  head_length: "end to end",
-  body_length: "end to end",
-  width: "of every board",
-  overhang: "hole to end",
-  head_speed: "along its path",
-  margin: "gap to keep",
-  speed_limit: "of every handle",
-  stray: "of every person",
-  hole: "its diameter",
-  pin: "its diameter",
-};
+/** What the service says of the fields of its questions: their labels and hints in English, and [least, most, unit]. */
+export const { labels: LABELS = {}, hints: HINTS = {}, limits: LIMITS = {} } = JSON.parse(/** @type {any} */ (globalThis.document?.querySelector("meta[name=fields]"))?.content ?? "{}");
 /** What a number without a text is. @type {Phrases} */
 export const EMPTY_NAMES = {
   entry_radius: "circle",

@@ -170,6 +170,9 @@ export class Keep {
     $("#curl-of").append(...commands.map(({ key, title }) => make("option", { value: key, "data-text": title })));
     $("#curl-of").addEventListener("change", () => this.show());
     $("#paper").addEventListener("toggle", () => $("#paper").open && this.paper());
+    this.#offer().catch((error) => {
+      if (!(error instanceof Problem)) throw error;
+    });
   }
 
   #row(item) {
@@ -188,8 +191,9 @@ export class Keep {
     if ($("#paper").open) this.paper();
   }
 
-  /** Offer only formats that this service can write. paths: of its OpenAPI document */
-  offer(paths) {
+  /** Offer only formats that this service can write. */
+  async #offer() {
+    const { paths } = await this.service.ask("openapi", "openapi.json");
     const calls = Object.values(paths).flatMap((path) => Object.values(path));
     const types = new Set(calls.flatMap(({ responses }) => Object.keys(responses?.[200]?.content ?? {})));
     for (const button of $$("[data-keep]")) button.hidden = !types.has(TYPES[button.dataset.form]);

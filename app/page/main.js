@@ -1,10 +1,10 @@
 /** The page: a person's actions change the state, and the service's answers change the screen. */
 
 import * as answers from "./answers.js";
-import { Problem, Service } from "./api.js";
+import { Service } from "./api.js";
 import { BenchTable } from "./bench_table.js";
 import { boxes } from "./boxes.js";
-import { Controls, limitsIn } from "./controls.js";
+import { Controls } from "./controls.js";
 import { Dance, spanOf, speedRange } from "./dance.js";
 import { Doors } from "./doors.js";
 import { $, $$, onClick } from "./elements.js";
@@ -93,8 +93,6 @@ let [route, below, strip, carrier, dragons, sharing, challenge] = [null, null, n
 let begun = "";
 /** The language of the sentences that the service has sent. */
 let spoken = "";
-let limits = {};
-let paths = null;
 const DRAWING = Symbol("drawing");
 let drawing = false;
 let opened = false;
@@ -341,7 +339,7 @@ function translate() {
   for (const link of $$("[data-how]")) link.href = `how?lang=${chosen}`;
   if (chosen !== (begun ||= chosen)) for (const open of [openRoute, openBelow]) open();
   graphs.help();
-  controls.translate(limits);
+  controls.translate();
   benches.show();
   pace.show();
   player.translate();
@@ -417,7 +415,6 @@ async function openBelow() {
   if (below) return;
   below = new Below({ state, service, questions, names: NUMBERS, canvas: $("#canvas"), player });
   writeTexts();
-  if (paths) below.learn(paths, limits);
   below.translate(language());
 }
 
@@ -505,20 +502,8 @@ function restyle() {
   dance.draw();
 }
 
-/** Limits and units of the numbers, and formats that this service can write. */
-async function readDocument() {
-  ({ paths } = await service.ask("openapi", "openapi.json"));
-  limits = limitsIn(paths);
-  controls.translate(limits);
-  below?.learn(paths, limits);
-}
-
 await learn(service, languageOf(state.get("lang")), "first");
 listen();
 showState(new Set([...Object.keys(SHOW_STATE), "pitch"]));
 doors.refuse();
 doors.begin();
-readDocument().catch((error) => {
-  // Without the document the page lacks only the limits and units.
-  if (!(error instanceof Problem)) throw error;
-});

@@ -3,7 +3,7 @@
 import { ticks } from "./charts.js";
 import { columnName } from "./columns.js";
 import { $, SMALL_TYPE, colours, inType, make } from "./elements.js";
-import { FIELDS, LABELS } from "./fields.js";
+import { LABELS, LIMITS } from "./fields.js";
 import { palette } from "./pen.js";
 import { say } from "./text.js";
 
@@ -19,7 +19,6 @@ const ERROR = "error.code";
 const formatNumber = (number) => (number === null || number === undefined ? "–" : String(Number(Number(number).toPrecision(DIGITS))));
 
 export class SweepMap {
-  #units = {};
   #table = null;
   #cell = null;
   /** Name of the main value. */
@@ -56,13 +55,6 @@ export class SweepMap {
     this.#cell = null;
     this.reading.textContent = "";
     this.draw();
-  }
-
-  /** units: name -> unit in the service */
-  learn(units) {
-    this.#units = units;
-    this.draw();
-    this.#point(this.#cell);
   }
 
   /** Draw it again, also after a change of language, size or colours. */
@@ -114,8 +106,9 @@ export class SweepMap {
 
   /** Name and unit of a parameter. */
   #label(name) {
-    const unit = this.#units[name] ? ` [${this.#units[name]}]` : "";
-    return FIELDS.some((field) => field.name === name) ? say(LABELS[name]) + unit : name;
+    if (!(name in LIMITS)) return name;
+    const [, , unit] = LIMITS[name];
+    return say(LABELS[name]) + (unit ? ` [${unit === "turns" ? say("turns") : unit}]` : "");
   }
 
   get #valueName() {

@@ -1,6 +1,7 @@
 /** The editor of the head's speeds and times: passages, and the time of day at time 0. */
 
 import { button, make, numberIn, textButton } from "./elements.js";
+import { LABELS } from "./fields.js";
 import { announce } from "./overlays.js";
 import { beatsOf, beginsOf, clockIn, endOf, passagesIn, timeOfDay } from "./passages.js";
 import { phrase, say, sentencesOf } from "./text.js";
@@ -37,7 +38,7 @@ export class Pace {
     const box = make("details", { id: "passages" }, this.title, help, this.list, this.error, ...adds);
     this.clock = make("input", { id: "begin_clock", autocomplete: "off", "aria-describedby": "clock-error clock-help", onchange: () => this.#start() });
     this.wrong = make("p", { id: "clock-error", className: "error", hidden: true });
-    const label = make("label", {}, make("span", { "data-text": "Starts at" }), " ", this.clock);
+    const label = make("label", {}, make("span", { "data-text": LABELS.begin_clock }), " ", this.clock);
     /** Says when the dance ends, and of an address or a file with the time of day at time 0 when it begins. */
     this.help = make("p", { id: "clock-help", className: "hint", hidden: true });
     // Of a drawn dance it stands beside the square.
@@ -129,7 +130,7 @@ export class Pace {
     });
     this.list.parentElement.open ||= passages.length > 0;
     const bars = beats?.reduce((sum, one) => sum + one.bars, 0);
-    this.title.textContent = beats ? say("Speeds by the beats of a drum ({bars} bars)", { bars }) : passages.length ? say("Slower, faster, pauses: {count}", { count: passages.length }) : say("Slower, faster, pauses");
+    this.title.textContent = beats ? say("Speeds by the beats of a drum ({bars} bars)", { bars }) : passages.length ? say("Slower, faster, pauses: {count}", { count: passages.length }) : say(LABELS.passages);
     this.#say();
     if (document.activeElement !== this.clock) this.clock.value = this.state.get("begin_clock") || this.state.get("start_clock");
   }

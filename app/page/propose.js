@@ -7,7 +7,7 @@ import { FACTORS, times } from "./controls.js";
 import { Corners } from "./corners.js";
 import { EMPTY, THINGS, drawingOf, freeName, ownOf, venueOf, yardOf } from "./drawing.js";
 import { $, bearer, button, hide, make, numberIn, textButton } from "./elements.js";
-import { HELPS, LABELS, strayOf } from "./fields.js";
+import { HINTS, LABELS, strayOf } from "./fields.js";
 import { knotsOf } from "./knots.js";
 import { clockIn, secondsBetween } from "./passages.js";
 import { pending } from "./pending.js";
@@ -66,7 +66,7 @@ const MINUTES = /^(\d+(?:[.,]\d+)?)\s*(\p{L}*)$/u;
 /** Longest and shortest time of a dance [s], and most times around [1], as in the service. */
 const [SHORTEST, LONGEST, LAPS_MOST] = [1, 86_400, 100];
 /** Words for the stray behind the door of the village, and those of the other doors. */
-const STRAY = { true: [phrase("People may stray up to"), phrase("from their place")], false: [LABELS.stray, HELPS.stray] };
+const STRAY = { true: [phrase("People may stray up to"), phrase("from their place")], false: [LABELS.stray, HINTS.stray] };
 /** A drawing without a path. */
 const { points, straight, path, start, begin } = EMPTY;
 const WITHOUT_PATH = { points, straight, path, start, begin };

@@ -66,16 +66,21 @@ class PointBody(Wire, strict=True):
 class CrewFields(Wire):
     """The people of a dance."""
 
-    head_people: People = Field(8, description="People on the head's bench")
-    bench_people: People = Field(2, description="People on every other bench")
-    spares: Annotated[int, Field(ge=0, le=PEOPLE_MAX), AS_WHOLE] = Field(
-        0, description="Further people, who carry nothing at the start and come in at changes"
+    head_people: People = measure("", "People on the head's bench", 8, label="on the head")
+    bench_people: People = measure("", "People on every other bench", 2, label="on every other bench")
+    spares: Annotated[int, Field(ge=0, le=PEOPLE_MAX), AS_WHOLE] = measure(
+        "", "Further people, who carry nothing at the start and come in at changes", 0, label="spares"
     )
     shift: float | None = measure(
-        "s", "Time after which people change, again and again; default: not by time", None, gt=0, le=SHIFT_MAX
+        "s", "Time after which people change, again and again; default: not by time", None,
+        label="shift [s]", gt=0, le=SHIFT_MAX,
+    )  # fmt: skip
+    rest: float = measure(
+        "s", "Least time from going out to coming in again", 0.0, label="least rest [s]", ge=0, le=SHIFT_MAX
     )
-    rest: float = measure("s", "Least time from going out to coming in again", 0.0, ge=0, le=SHIFT_MAX)
-    at: Instant | None = measure("s", "Time at which the answer says who is where; default: none", None)
+    at: Instant | None = measure(
+        "s", "Time at which the answer says who is where; default: none", None, label="Who is where at [s], or 19:45"
+    )
     at_clock: Annotated[str | None, AfterValidator(checked_clock)] = Field(
         None, description="The same as a time of day such as 19:45, for a dance with start_clock or begin_clock"
     )

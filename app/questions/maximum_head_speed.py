@@ -19,7 +19,9 @@ from core.language import say
 class SpeedLimitField(Wire):
     """Speed limit for every handle."""
 
-    speed_limit: SpeedLimit = measure("m/s", "Highest speed allowed for any handle", 2.0)
+    speed_limit: SpeedLimit = measure(
+        "m/s", "Highest speed allowed for any handle", 2.0, label="Speed limit", hint="of every handle"
+    )
 
 
 class MaximumHeadSpeedQuery(SpeedLimitField, TurnFields, UniformDragon):

@@ -18,9 +18,11 @@ from functools import cache, lru_cache
 from importlib.resources import files
 from mimetypes import guess_type
 from pathlib import Path
+from typing import Annotated, Any
 
 import orjson
 from fastapi import FastAPI, Response
+from pydantic import TypeAdapter
 from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers
 from starlette.exceptions import HTTPException
@@ -31,6 +33,7 @@ from starlette.types import Scope
 
 from app.service.negotiation import GZIPPED, accepted, tags_in
 from app.service.problems import CLOSE, Refused
+from app.wire.fields import LABELLED, extra_of
 from app.wire.labels import labels_of
 from app.wire.problem import PROBLEM_TYPE
 from app.wire.question import JSON
@@ -122,6 +125,8 @@ KEPT_FILES = 256
 # The button of English, after which those of the other languages stand, and that of any language.
 ENGLISH_BUTTON = '<button type="button" lang="en" data-lang="en">English</button>'
 BUTTON = '\n      <button type="button" lang="{tag}" data-lang="{code}">{name}</button>'
+# What the page knows of the fields of its questions.
+FIELDS_MARK = '<meta name="fields">'
 # Tags of languages whose catalogues have another name in HTML.
 TAGS = {"zh": "zh-Hans"}
 
@@ -232,6 +237,22 @@ class Page(Files):
         return found
 
 
+@cache
+def _fields() -> dict[str, dict[str, Any]]:
+    """Labels and hints of fields, and of those with a hint [least, most, unit]."""
+    labels, hints = (
+        {k: text for k, field in LABELLED.items() if (text := extra_of(field, w))} for w in ("label", "hint")
+    )
+    limits = {}
+    for name in hints:
+        kind: Any = Annotated[LABELLED[name].annotation, LABELLED[name]]
+        schema = TypeAdapter(kind).json_schema()
+        schema |= schema.get("anyOf", [{}])[0]
+        least = schema.get("minimum", schema.get("exclusiveMinimum"))
+        limits[name] = [least, schema["maximum"], schema.get("x-unit", "")]
+    return {"labels": labels, "hints": hints, "limits": limits}
+
+
 def _sentences(page: Page, names: Iterable[str]) -> Iterator[tuple[str, str]]:
     """Meanings, empty without one, and texts of these files that may be in a catalogue."""
     for name in names:
@@ -239,6 +260,7 @@ def _sentences(page: Page, names: Iterable[str]) -> Iterator[tuple[str, str]]:
         if name.endswith(".html"):
             yield from (("", html.unescape(mark[2])) for mark in TEXT_MARK.findall(text))
             yield from (("", html.unescape(label)) for label in LABEL_MARK.findall(text))
+            yield from (("", words) for words in (*_fields()["labels"].values(), *_fields()["hints"].values()))
         else:
             yield from SENSE.findall(text)
             yield from (("", json.loads(literal)) for literal in LITERAL.findall(text) if "\\" not in literal)
@@ -284,7 +306,8 @@ def _written(page: Page, name: str, language: str, edition: str) -> bytes:
     for code in catalogues():
         with speaking(code):
             buttons += BUTTON.format(tag=TAGS.get(code, code), code=code, name=sense("language", "English"))
-    text = text.replace(ENGLISH_BUTTON, buttons)
+    known = f'{FIELDS_MARK[:-1]} content="{html.escape(orjson.dumps(_fields()).decode())}">'
+    text = text.replace(ENGLISH_BUTTON, buttons).replace(FIELDS_MARK, known)
     return text.replace('"page/', f'"page-{edition}/').encode()
 
 

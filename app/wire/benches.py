@@ -9,10 +9,10 @@ from collections.abc import Iterable
 from functools import cached_property
 from typing import Annotated, Any, NamedTuple
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator
 from pydantic_core import PydanticCustomError
 
-from app.wire.fields import LENGTHS, OVERHANGS, WIDTHS, Wire, check_limit
+from app.wire.fields import LENGTHS, OVERHANGS, WIDTHS, Wire, check_limit, measure
 from app.wire.numbers import number_of
 from app.wire.texts import text_of_cell
 from core import Dragon, InvalidValue
@@ -159,9 +159,11 @@ def _checked_table(text: str) -> str:
 class BenchCsv(Wire, strict=True):
     """A dragon bench by bench as text, as spreadsheets save and copy it: a line for each bench, head first."""
 
-    csv: Annotated[str, AfterValidator(_checked_table)] = Field(
-        description="First line: the names of the columns length, width, overhang [m] and, if benches have names, "
-        "name; then a line for each bench. Columns are separated by commas, semicolons or tabs"
+    csv: Annotated[str, AfterValidator(_checked_table)] = measure(
+        "",
+        "First line: the names of the columns length, width, overhang [m] and, if benches have names, "
+        "name; then a line for each bench. Columns are separated by commas, semicolons or tabs",
+        label="Benches measured one by one",
     )
 
     @cached_property

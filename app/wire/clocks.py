@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence
 from typing import Annotated
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator
 from pydantic_core import PydanticCustomError
 
 from app.wire.fields import Instant, Wire, measure
@@ -29,16 +29,22 @@ def checked_clock(text: str | None) -> str | None:
 StartClock = Annotated[
     str | None,
     AfterValidator(checked_clock),
-    Field(description="Time of day at time 0, such as 19:30 or 19:30:15: failures, tables and films then show it too"),
+    measure(
+        "",
+        "Time of day at time 0, such as 19:30 or 19:30:15: failures, tables and films then show it too",
+        label="Starts at",
+    ),
 ]
 
 
 BeginClock = Annotated[
     str | None,
     AfterValidator(checked_clock),
-    Field(
-        description="Time of day at which the dance starts, such as 19:30, in place of start_clock: at start if that "
-        "is given, else when the whole dragon is on the path"
+    measure(
+        "",
+        "Time of day at which the dance starts, such as 19:30, in place of start_clock: at start if that "
+        "is given, else when the whole dragon is on the path",
+        label="Starts at",
     ),
 ]
 
@@ -92,13 +98,20 @@ def time_of_day(time: float, start_clock: str) -> str:
 class PassageBody(Wire, strict=True):
     """A stretch of the dance at a speed of its own, from the end of the passage before it, or from time 0."""
 
-    speed: float = measure("m/s", "Speed of the head; 0: a pause, which has a duration or ends at a time", ge=0, le=20)
+    speed: float = measure(
+        "m/s", "Speed of the head; 0: a pause, which has a duration or ends at a time", label="Speed of the passage",
+        ge=0, le=20,
+    )  # fmt: skip
     until_s: float | None = measure(
         "m", "Place of the head at which the passage ends, along the path from where it is at time 0", None,
-        ge=-1e6, le=1e6,
+        label="until, in metres", ge=-1e6, le=1e6,
     )  # fmt: skip
-    until_time: Instant | None = measure("s", "Time at which the passage ends, in place of a place", None)
-    duration: float | None = measure("s", "Duration of the passage, in place of its end", None, gt=0, le=1e6)
+    until_time: Instant | None = measure(
+        "s", "Time at which the passage ends, in place of a place", None, label="until, in seconds"
+    )
+    duration: float | None = measure(
+        "s", "Duration of the passage, in place of its end", None, label="for, in seconds", gt=0, le=1e6
+    )
 
 
 def passages_of(bodies: Sequence[PassageBody]) -> list[Passage]:

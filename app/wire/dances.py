@@ -201,13 +201,15 @@ class DragonFields(Wire, strict=True):
 class PathFields(HeadSpeed, DragonFields, strict=True):
     """A dragon on a path."""
 
-    passages: list[PassageBody] = Field(
-        [],
-        max_length=PASSAGES_MAX,
-        fail_fast=True,
-        description="Stretches from time 0 on in which the head goes at other speeds than head_speed, one after the "
+    passages: list[PassageBody] = measure(
+        "",
+        "Stretches from time 0 on in which the head goes at other speeds than head_speed, one after the "
         "other; after the last one, head_speed holds. Contacts depend only on the place of the head; the time of a "
         "contact is the first time at which the head is there",
+        [],
+        label="Slower, faster, pauses",
+        max_length=PASSAGES_MAX,
+        fail_fast=True,
     )
     beats: list[BarsBody] = Field(
         [],

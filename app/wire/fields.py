@@ -99,22 +99,32 @@ def short_json(value: Any) -> str:
     return text if len(text) <= VALUE_LENGTH_MAX else f"{text[:VALUE_LENGTH_MAX]}... ({len(text)} characters)"
 
 
-def measure(unit: str, description: str = "", default: Any = ..., **limits: Any) -> Any:
-    """A field with a unit, which appears in the schema as x-unit and at the end of the description."""
-    words = f"{description} [{unit}]".lstrip()
-    return Field(default, description=words, json_schema_extra={"x-unit": unit}, **limits)
+def measure(
+    unit: str, description: str = "", default: Any = ..., *, label: str = "", hint: str = "", **limits: Any
+) -> Any:
+    """A field with a unit, which appears in the schema as x-unit and at the end of the description.
+
+    unit: empty for none; label, hint: what people read beside it on the page, in refusals, and in the schema as x-label
+    """
+    words = f"{description} [{unit}]".lstrip() if unit else description
+    extra: Any = {f"x-{what}": text for what, text in (("unit", unit), ("label", label), ("hint", hint)) if text}
+    return Field(default, description=words, json_schema_extra=extra, **limits)
 
 
-def unit_of(field: FieldInfo) -> str:
-    """Unit of a field; empty for a pure number and for a field that is not a number."""
+# Fields with a label, by name: each request that has one enters it.
+LABELLED: dict[str, FieldInfo] = {}
+
+
+def extra_of(field: FieldInfo, what: str) -> str:
+    """The unit, the label or the hint of a field; empty for a field without."""
     extra = field.json_schema_extra
-    return str(extra["x-unit"]) if isinstance(extra, dict) and "x-unit" in extra else ""
+    return str(extra.get(f"x-{what}", "")) if isinstance(extra, dict) else ""
 
 
 def typed_fields(kind: Any) -> dict[str, tuple[Any, str]]:
     """Type and unit of every field of an answer, or of a value of core in one."""
     if issubclass(kind, BaseModel):
-        return {name: (field.annotation, unit_of(field)) for name, field in kind.model_fields.items()}
+        return {name: (field.annotation, extra_of(field, "unit")) for name, field in kind.model_fields.items()}
     types, known = get_type_hints(kind), meanings(kind)
     return {one.name: (types[one.name], known.get(one.name, NO_MEANING).unit) for one in fields(kind)}
 
@@ -135,12 +145,26 @@ Overhang = Annotated[float, Field(ge=OVERHANGS[0], le=OVERHANGS[1])]
 PITCH_MAX = 10.0  # [m]
 # Largest stray in a request [m]: half of the longest possible chord. The real limit is half of the shortest chord.
 STRAY_MAX = 25
-Pitch = Annotated[float, measure("m", "Radial advance of the spiral per full turn", ge=1e-3, le=PITCH_MAX)]
-StartTurns = Annotated[float, measure("turns", "Turns between the centre and the start", gt=0, le=200)]
+Pitch = Annotated[
+    float, measure(
+        "m", "Radial advance of the spiral per full turn", label="Pitch", hint="between two rings",
+        ge=1e-3, le=PITCH_MAX,
+    ),
+]  # fmt: skip
+StartTurns = Annotated[
+    float,
+    measure(
+        "turns", "Turns between the centre and the start", label="Head starts", hint="turns from the centre",
+        gt=0, le=200,
+    ),
+]  # fmt: skip
 Margin = Annotated[
     float,
-    measure("m", "Clearance required: benches within it are in contact; 0: only a touch counts", ge=0, le=2),
-]
+    measure(
+        "m", "Clearance required: benches within it are in contact; 0: only a touch counts", label="Margin",
+        hint="gap to keep", ge=0, le=2,
+    ),
+]  # fmt: skip
 # Unit of the coordinates of a venue.
 Coordinates = Literal["metres", "degrees"]
 PaperSize = Annotated[Literal["A4", "A3"], Field(description="Size of the paper")]
@@ -174,6 +198,11 @@ class Wire(BaseModel):
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, defer_build=True)
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **options: Any) -> None:
+        super().__pydantic_init_subclass__(**options)
+        LABELLED.update({name: field for name, field in cls.model_fields.items() if extra_of(field, "label")})
 
     @model_validator(mode="before")
     @classmethod
@@ -233,7 +262,7 @@ def described_field(name: str, kind: type) -> FieldInfo | None:
         return None
     words = re.sub(r"(^|\. )([a-z])(?!\w+:|[xy]\b)", lambda one: one[1] + one[2].upper(), meaning.words)
     words = re.sub(r"(?<=\. )None\b", "Null", words).replace("None", "null")
-    field: FieldInfo = measure(meaning.unit, words) if meaning.unit else Field(description=words)
+    field: FieldInfo = measure(meaning.unit, words)
     return field
 
 
@@ -286,11 +315,15 @@ uniform_dragon = lru_cache(maxsize=4)(Dragon)
 class UniformDragon(Wire):
     """A head and a body of equal benches."""
 
-    benches: Whole = Field(223, ge=1, le=BENCHES_MAX, description="Number of benches")
-    head_length: Length = measure("m", "Length of the head's bench", 3.41)
-    body_length: Length = measure("m", "Length of every other bench", 2.20)
-    width: Width = measure("m", "Width of every bench", 0.30)
-    overhang: Overhang = measure("m", "Distance from a handle to the nearer end of its bench", 0.275)
+    benches: Whole = measure(
+        "", "Number of benches", 223, label="Benches", hint="with head and tail", ge=1, le=BENCHES_MAX
+    )
+    head_length: Length = measure("m", "Length of the head's bench", 3.41, label="Head length", hint="end to end")
+    body_length: Length = measure("m", "Length of every other bench", 2.20, label="Body length", hint="end to end")
+    width: Width = measure("m", "Width of every bench", 0.30, label="Width", hint="of every board")
+    overhang: Overhang = measure(
+        "m", "Distance from a handle to the nearer end of its bench", 0.275, label="Handle to end", hint="hole to end"
+    )
 
     def to_dragon(self, benches_max: int) -> Dragon:
         """raises: TooLarge, InvalidValue"""
@@ -320,12 +353,16 @@ class Strays(Wire):
 
     stray: float = measure(
         "m", "Largest distance of a person from their place; the margin then holds for all places within it", 0.0,
-        ge=0, le=STRAY_MAX,
+        label="Stray", hint="of every person", ge=0, le=STRAY_MAX,
     )  # fmt: skip
-    hole: float = measure("m", "Diameter of the holes in the benches; with the pin it gives the play", 0.0, ge=0, le=1)
+    hole: float = measure(
+        "m", "Diameter of the holes in the benches; with the pin it gives the play", 0.0,
+        label="Hole", hint="its diameter", ge=0, le=1,
+    )  # fmt: skip
     pin: float = measure(
-        "m", "Diameter of the pins in these holes; half of the difference adds to the stray", 0.0, ge=0, le=1
-    )
+        "m", "Diameter of the pins in these holes; half of the difference adds to the stray", 0.0,
+        label="Pin", hint="its diameter", ge=0, le=1,
+    )  # fmt: skip
 
     @property
     def has_stray(self) -> bool:
@@ -347,7 +384,9 @@ class Strays(Wire):
 class HeadSpeed(Wire):
     """Speed of the head."""
 
-    head_speed: float = measure("m/s", "Speed of the head", 1.0, ge=1e-3, le=20)
+    head_speed: float = measure(
+        "m/s", "Speed of the head", 1.0, label="Head speed", hint="along its path", ge=1e-3, le=20
+    )
 
 
 class DanceQuery(HeadSpeed, SpiralFields, UniformDragon):

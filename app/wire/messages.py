@@ -13,7 +13,7 @@ from typing import Annotated, Any, TypeVar, get_args, get_origin
 from pydantic import BaseModel, Tag, ValidationError
 
 from app.wire.dances import AXIS, SHAPES
-from app.wire.fields import VALUE_LENGTH_MAX, Wire, short_json, unit_of
+from app.wire.fields import VALUE_LENGTH_MAX, Wire, extra_of, short_json
 from app.wire.numbers import number_of
 from app.wire.paths import KINDS
 from core import InvalidValue
@@ -211,8 +211,8 @@ def known_units() -> dict[str, str]:
     owned, units = owners(), dict[str, str]()
     for model, before in sorted(owned.items(), key=lambda one: bool(one[1])):
         for name, field in model.model_fields.items():
-            units.setdefault(name, unit_of(field))
-            units |= {f"{owner}.{name}": unit_of(field) for owner in before}
+            units.setdefault(name, extra_of(field, "unit"))
+            units |= {f"{owner}.{name}": extra_of(field, "unit") for owner in before}
     return units
 
 

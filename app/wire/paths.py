@@ -57,14 +57,20 @@ Ends = Annotated[
 # An entry deeper inside the circle makes the turn shorter.
 EntryRadius = Annotated[
     float | None,
-    measure("m", "Distance from the centre at which the turn begins; default: on the circle", ge=1e-3, le=100),
-]
+    measure(
+        "m", "Distance from the centre at which the turn begins; default: on the circle",
+        label="Turn entry", hint="from the centre", ge=1e-3, le=100,
+    ),
+]  # fmt: skip
 
 
 ExitRadius = Annotated[
     float | None,
-    measure("m", "Distance from the centre at which the turn ends; default: that of its entry", ge=1e-3, le=100),
-]
+    measure(
+        "m", "Distance from the centre at which the turn ends; default: that of its entry",
+        label="Turn exit", hint="from the centre", ge=1e-3, le=100,
+    ),
+]  # fmt: skip
 
 
 class WayToCircle(Wire):
@@ -88,8 +94,13 @@ class TurnCircle(Wire):
     """Two coils, and the circle in which the dance turns from one to the other."""
 
     pitch: Pitch = 1.7
-    turning_diameter: TurningDiameter = measure("m", "Diameter of the circle in which the turn lies", 9.0)
-    ratio: float = Field(2.0, ge=0.01, le=100, description="Radius of the first arc divided by that of the second")
+    turning_diameter: TurningDiameter = measure(
+        "m", "Diameter of the circle in which the turn lies", 9.0, label="Turning circle", hint="its diameter"
+    )
+    ratio: float = measure(
+        "", "Radius of the first arc divided by that of the second", 2.0,
+        label="Arc ratio", hint="first : second", ge=0.01, le=100,
+    )  # fmt: skip
     start_turns: StartTurns = 16.0
 
 
@@ -191,7 +202,7 @@ class ClothoidPiece(Wire, strict=True):
     heading: Angle = measure("rad", "Direction at the start")
     start_curvature: Curvature = measure("1/m", "Curvature at the start, counter-clockwise positive")
     end_curvature: Curvature = measure("1/m", "Curvature at the end")
-    length: float = measure("m", "Length along the curve", ge=1e-3, le=1e4)
+    length: float = measure("m", "Length along the curve", label="Length", ge=1e-3, le=1e4)
 
     @property
     def turned(self) -> float:

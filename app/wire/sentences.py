@@ -5,21 +5,10 @@ from __future__ import annotations
 import math
 import re
 
+from app.wire.fields import LABELLED, extra_of
 from core.errors import BenchDragonError, Given, Parameter, Quantity, Value, format_field, message_of
 from core.language import Phrases, say
 
-# Labels of fields, by the last of their names.
-LABELS: Phrases = {
-    "pitch": "Pitch", "start_turns": "Head starts", "turning_diameter": "Turning circle", "ratio": "Arc ratio",
-    "entry_radius": "Turn entry", "exit_radius": "Turn exit", "benches": "Benches", "head_length": "Head length",
-    "body_length": "Body length", "width": "Width", "overhang": "Handle to end", "head_speed": "Head speed",
-    "margin": "Margin", "speed_limit": "Speed limit", "stray": "Stray", "hole": "Hole", "pin": "Pin",
-    "csv": "Benches measured one by one", "passages": "Slower, faster, pauses", "begin_clock": "Starts at",
-    "start_clock": "Starts at", "length": "Length", "speed": "Speed of the passage", "until_s": "until, in metres",
-    "until_time": "until, in seconds", "duration": "for, in seconds",
-    "head_people": "on the head", "bench_people": "on every other bench", "spares": "spares", "shift": "shift [s]",
-    "rest": "least rest [s]", "at": "Who is where at [s], or 19:45",
-}  # fmt: skip
 # What a place is, with # for an index: {number} is one more than the first of them.
 PLACES: Phrases = {
     "collision_time": "“First contact”",
@@ -127,5 +116,5 @@ def label_of(dotted: str, pointer: str | None = None) -> str:
             number = re.search(r"\d+", place)
             return say(words, number=int(number[0]) + 1) if number else say(words)
     names = [part for part in dotted.split(".") if not part.isdigit()]
-    label = LABELS.get(names[-1]) if names else None
-    return say("“{name}”", name=say(label)) if label else format_field(dotted)
+    field = LABELLED.get(names[-1]) if names else None
+    return say("“{name}”", name=say(extra_of(field, "label"))) if field else format_field(dotted)

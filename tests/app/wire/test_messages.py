@@ -6,7 +6,7 @@ from pkgutil import walk_packages
 import pytest
 
 import app
-from app.wire.fields import unit_of
+from app.wire.fields import extra_of
 from app.wire.messages import owners
 from app.wire.problem import BYTES_MAX
 from app.wire.question import JSON
@@ -125,7 +125,7 @@ def test_a_name_has_the_same_unit_in_all_requests():
     units = {}
     for model, before in owners().items():
         for name, field in {} if before else model.model_fields.items():
-            units.setdefault(name, set()).add(unit_of(field))
+            units.setdefault(name, set()).add(extra_of(field, "unit"))
     assert {name: result for name, result in units.items() if len(result) > 1} == {}
 
 
