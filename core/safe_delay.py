@@ -27,7 +27,7 @@ import numpy as np
 from core.contact.brackets import TOUCHES
 from core.contact.search import MARGIN_MAX, WORK_BUDGET
 from core.contact.stage import Player, Stage
-from core.contact.stage_march import EncounterMarch, Met
+from core.contact.stage_march import EncounterMarch
 from core.dance import Dance
 from core.display import Readable, format_range
 from core.dragon import Stray
@@ -35,6 +35,7 @@ from core.errors import InvalidValue, Parameter, Quantity, bound, checked_number
 from core.extremes.speed import highest_speed
 from core.kernels import Budget, Ended
 from core.kernels.constants import HALF_LENGTH
+from core.kernels.results import Marched
 from core.language import say
 from core.passages import TIME_MAX
 from core.performance import DELAY_MAX, Part, Performance
@@ -257,13 +258,13 @@ class _Search:
         stage = self._stage(moved, 0.5 * (low + high), (low, high))
         return self._march(stage, BRACKET_PART * half).ended is Ended.REACHED
 
-    def _march(self, stage: Stage, half: float | None) -> Met:
+    def _march(self, stage: Stage, half: float | None) -> Marched:
         self.marches += 1
         self.budget.afford(BENCH_WORK * len(stage.owner))
         march = EncounterMarch(stage, dips=False)
         begin = max(stage.span[0], stage.clear_until())
         if begin >= stage.span[1]:
-            return Met(Ended.REACHED, begin)
+            return Marched(Ended.REACHED, begin)
         return march.run(begin, stage.span[1]) if half is None else march.try_once(begin, stage.span[1], half)
 
     def _met_around(self, delay: float, low: float, high: float) -> tuple[float, float]:
@@ -274,7 +275,7 @@ class _Search:
         met = self._march(stage, None)
         if met.ended not in TOUCHES or met.touching is None:
             return delay, delay
-        rows = met.rows
+        rows = met.pair
         sizes = [2.0 * float(self.look.own_sizes[row, HALF_LENGTH]) for row in rows]
         fastest = max(max(player.clock.speeds) for player in self.look.players)
         times = met.touching + np.linspace(0.0, 1.0, SAMPLES) * sum(sizes) / fastest

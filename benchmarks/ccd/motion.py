@@ -12,7 +12,7 @@ import numpy as np
 
 from benchmarks.ccd.dances import Record, dance_of
 from core import kernels
-from core.contact.search import ContactSearch
+from core.contact.search import ContactSearch, SearchInput
 from core.kernels.constants import (
     CENTRE_PULL,
     ERROR,
@@ -60,7 +60,7 @@ class Stage:
 
     def __init__(self, record: Record) -> None:
         self.dance = dance_of(record)
-        self.search = ContactSearch(self.dance.dragon, self.dance.path, 0.0)
+        self.search = ContactSearch(SearchInput(self.dance.dragon, self.dance.path, 0.0))
         self.sizes, self.chain = self.search.sizes, self.search.opening
 
     def lay(self, place: float, last: int) -> Floats:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from core import plots
 from core.contact.answer import Graze
 from core.contact.gaps import Pair, grazes, moments_of
-from core.contact.search import NEAR_WORK_BUDGET, ContactSearch, before_fold
+from core.contact.search import NEAR_WORK_BUDGET, ContactSearch, SearchInput, before_fold
 from core.contact.stage_clearance import clearance_between, least_clearance_between
 from core.contact.stretch import GRAZE_WIDTH, Stretch, least_on
 from core.dance import Dance
@@ -134,8 +134,7 @@ def clearance_profile(dance: Dance, times: ArrayLike, *, budget: Budget | None =
     if dragon.benches < 3:
         raise InvalidValue("dragon.benches", "must be at least 3, so that two share no handle", got=dragon.benches)
     time = dance.times(times)
-    search = ContactSearch(dragon, dance.path, 0.0, budget=budget)
-    search.resize(dragon.benches)
+    search = ContactSearch(SearchInput(dragon, dance.path, 0.0, whole=True), budget=budget)
     times_of = time if time.size else np.zeros(1)
     first, last = float(times_of.min()), float(times_of.max())
     span = clock.travel(first), clock.travel(last)
@@ -176,7 +175,8 @@ def least_clearance(
         return None
     to_fold = dance.nears_fold(until)
     strayed = checked_stray(stray, dance.dragon)
-    search = ContactSearch(dance.dragon, dance.path, 0.0, work=NEAR_WORK_BUDGET, budget=budget, stray=strayed)
+    sought = SearchInput(dance.dragon, dance.path, 0.0, stray=strayed)
+    search = ContactSearch(sought, work=NEAR_WORK_BUDGET, budget=budget)
     last = before_fold(clock.travel(until)) if to_fold else clock.travel(until)
     fold = end.theta if to_fold else None
     stretch = Stretch(search, (clock.travel(begin), last), clock.slowest, fold)

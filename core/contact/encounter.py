@@ -14,12 +14,13 @@ from core.contact.brackets import TOUCHES
 from core.contact.encounter_answer import EncounterEvidence, FirstEncounter, NearPass
 from core.contact.search import MARGIN_MAX, WORK_BUDGET
 from core.contact.stage import PROBED, Stage
-from core.contact.stage_march import EncounterMarch, Met, beyond, to_fold
+from core.contact.stage_march import EncounterMarch, beyond, to_fold
 from core.dance import EndReason
 from core.dragon import Stray
 from core.errors import checked_number, question_about
 from core.kernels import Budget, Ended
 from core.kernels.constants import FRONT, MX, UY
+from core.kernels.results import Marched
 from core.paths.path import HeadState
 from core.performance import Performance, PerformanceEnd
 from core.values import Point
@@ -77,15 +78,15 @@ def first_encounter(
     return _decided(stage, met, end)
 
 
-def marched(stage: Stage, *, dips: bool = True) -> Met:
+def marched(stage: Stage, *, dips: bool = True) -> Marched:
     """The march over the span of a stage, from where its rings no longer prove all to be clear; up to a fold if it ends
     there."""
     begin, until = stage.span
     if len(stage.players) == 1:
-        return Met(Ended.REACHED, until)
+        return Marched(Ended.REACHED, until)
     march, first = EncounterMarch(stage, dips=dips), max(begin, stage.clear_until())
     if first >= until:
-        return Met(Ended.REACHED, until)
+        return Marched(Ended.REACHED, until)
     folding = stage.folding(until)
     return to_fold(stage, march, first, until, folding) if folding else march.run(first, until)
 
@@ -106,21 +107,21 @@ def encounter_claim(stage: Stage, kind: ClaimKind, **values: object) -> Encounte
     return EncounterClaim(kind, **summary(stage.performance), **about)  # type: ignore[arg-type]
 
 
-def _evidence(stage: Stage, met: Met, claim: EncounterClaim) -> EncounterEvidence:
+def _evidence(stage: Stage, met: Marched, claim: EncounterClaim) -> EncounterEvidence:
     near = None
     if met.graze is not None:
         near = NearPass(met.graze.moment, met.graze.gap, *stage.pair(*met.graze.pair))
-    return EncounterEvidence(claim, met.steps, claim.clear_until, met.curvature, near)
+    return EncounterEvidence(claim, met.steps, claim.clear_until, met.gap_curvature, near)
 
 
-def _undecided(stage: Stage, met: Met) -> FirstEncounter:
+def _undecided(stage: Stage, met: Marched) -> FirstEncounter:
     """The answer of a search that gave up."""
     begin, until = stage.span
     later = beyond(stage, met, until)
     overlapping = None
     values: dict[str, object] = {"clear_until": met.proven if met.proven > begin else None}
     if later is not None and later.touching is not None:
-        until, overlapping = later.touching, stage.pair(*later.rows)
+        until, overlapping = later.touching, stage.pair(*later.pair)
         values |= {"time": until, "dragons": overlapping[0], "benches": overlapping[1]}
     return FirstEncounter(
         Outcome.UNDECIDED,
@@ -133,7 +134,7 @@ def _undecided(stage: Stage, met: Met) -> FirstEncounter:
     )
 
 
-def _decided(stage: Stage, met: Met, end: PerformanceEnd) -> FirstEncounter:
+def _decided(stage: Stage, met: Marched, end: PerformanceEnd) -> FirstEncounter:
     outcome, performance = OUTCOMES[met.ended], stage.performance
     about = {"margin": stage.margin, "stray": stage.stray, "performance": performance}
     if met.ended not in TOUCHES or met.touching is None:
@@ -144,11 +145,11 @@ def _decided(stage: Stage, met: Met, end: PerformanceEnd) -> FirstEncounter:
     if at_start and met.touching > begin:  # right where the rings end that prove the time before
         outcome, at_start = Outcome.CONTACT, False
     time = begin if at_start else max(met.touching - met.half, begin)
-    dragons, benches = stage.pair(*met.rows)
+    dragons, benches = stage.pair(*met.pair)
     clear_until = met.proven if met.proven > begin and not at_start else None
     kind = ClaimKind.CONTACT if clear_until is not None else ClaimKind.CONTACT_AT_START
     claim = encounter_claim(stage, kind, clear_until=clear_until, dragons=dragons, benches=benches, time=met.touching)
-    features, point, gap = _features(stage, time, met.rows)
+    features, point, gap = _features(stage, time, met.pair)
     (corner, of_corner), (edge, of_edge) = features
     return FirstEncounter(
         outcome,

@@ -12,18 +12,16 @@ So once every bench has passed the start of the one before it, only the pairs of
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import partial
 
 from core import kernels
 from core.claims.claim import BenchBetween, ClaimKind, ContactClaim, DanceSummary
 from core.contact.answer import CORNERS, EDGES, OUTCOMES, Evidence, Feature, FirstContact, Graze, Outcome
 from core.contact.between import holds_apart
-from core.contact.brackets import TOUCHES
 from core.contact.encounter import first_encounter
-from core.contact.fold import approach_fold
-from core.contact.near_graze import narrow_bracket
-from core.contact.search import MARGIN_MAX, ContactSearch
-from core.contact.stretch import Stretch, overlap_beyond
+from core.contact.search import MARGIN_MAX, ContactSearch, SearchInput
+from core.contact.stretch import first_met
 from core.dance import Clock, Dance, EndReason, RunEnd
 from core.dragon import Stray, checked_stray
 from core.errors import checked_number, or_about, question_about
@@ -89,37 +87,25 @@ def contact_within(
     none = type(stray) is float and stray == 0.0  # False and None are refused
     strayed = 0.0 if none else checked_stray(stray, dance.dragon)
     begin, until = dance.span(start, stop)
-    search = ContactSearch(dance.dragon, dance.path, margin, budget=budget, stray=strayed)
-    answer = _searched(dance, search, (begin, until), stop)
+    timing = dance.clock.rounding(until)
+    sought = SearchInput(dance.dragon, dance.path, margin, stray=strayed, timing=timing)
+    answer = _searched(dance, ContactSearch(sought, budget=budget), (begin, until), stop)
     a, b = answer.benches or answer.overlapping or (0, 0)
     if strayed and not margin and b - a == 2 and holds_apart(dance, dance.clock.travel(until), strayed, budget):
-        search = ContactSearch(dance.dragon, dance.path, margin, budget=budget, stray=strayed)
-        search.leave_out(2)
+        search = ContactSearch(replace(sought, between=2), budget=budget)
         answer = _searched(dance, search, (begin, until), stop)
     return answer
 
 
 def _searched(dance: Dance, search: ContactSearch, span: tuple[float, float], stop: float | None) -> FirstContact:
     """The answer of a search. span: begin and end [s]; stop: the end that was wanted, None for that of the run"""
-    begin, until = span
-    clock, head_speed, end = dance.clock, dance.clock.slowest, dance.end
-    search.timing = clock.rounding(until)
-    first, last = clock.travel(begin), clock.travel(until)
-    to_fold = dance.nears_fold(until)
-    stops = search.fold_stops(first, last, end) if to_fold else [(last, 0.0)]
-    state, march, half_bracket = search.approach(first, stops[0][0], head_speed)
-    if to_fold and state not in TOUCHES:
-        state, march, half_bracket = approach_fold(search, first, stops, head_speed, end, (state, march, half_bracket))
-    narrow = search.narrow_half((state, march, half_bracket), head_speed)
-    if narrow is not None:
-        known = narrow_bracket(search, march, narrow, None if dance.passages else head_speed)
-        march, half_bracket = (march, half_bracket) if known is None else (known, narrow)
-    if stop is not None and state is Ended.REACHED:
-        end = RunEnd(EndReason.STOP, until, None, None)
-    if state is Ended.STUCK:
-        certain = overlap_beyond(Stretch(search, (march.proven, stops[-1][0]), head_speed))
-        return _undecided(dance, search, march, certain, (begin, until))
-    return _result(dance, search, state, march, end, (begin, until), half_bracket)
+    march, certain = first_met(search, dance, span)
+    if march.ended is Ended.STUCK:
+        return _undecided(dance, search, march, certain, span)
+    end = dance.end
+    if stop is not None and march.ended is Ended.REACHED:
+        end = RunEnd(EndReason.STOP, span[1], None, None)
+    return _result(dance, search, march, end, span)
 
 
 def _undecided(
@@ -130,7 +116,7 @@ def _undecided(
     proven, overlapping, overlap_time = max(clock.time(march.proven), begin), None, None
     if certain is not None and certain.touching is not None:
         until = overlap_time = clock.time(certain.touching)
-        overlapping = certain.benches
+        overlapping = certain.pair
     clear_until = proven if proven > begin else None
     claim = ContactClaim(
         ClaimKind.UNDECIDED, DanceSummary.of(dance), search.margin, search.stray, begin, clear_until,
@@ -156,17 +142,11 @@ def _graze(march: Marched, clock: Clock, begin: float) -> Graze | None:
 
 
 def _result(
-    dance: Dance,
-    search: ContactSearch,
-    state: Ended,
-    march: Marched,
-    end: RunEnd,
-    span: tuple[float, float],
-    half_bracket: float,
+    dance: Dance, search: ContactSearch, march: Marched, end: RunEnd, span: tuple[float, float]
 ) -> FirstContact:
-    clock, outcome = dance.clock, OUTCOMES[state]
+    clock, outcome = dance.clock, OUTCOMES[march.ended]
     at_start = outcome is Outcome.CONTACT_AT_START
-    proven = end.time if state is Ended.REACHED else max(clock.time(march.proven), span[0])
+    proven = end.time if march.ended is Ended.REACHED else max(clock.time(march.proven), span[0])
     clear_until = proven if proven > span[0] and not at_start else None
     claim = _claim(dance, search, outcome, march, end, (span[0], proven))
     certificate = Evidence(claim, march.steps, clear_until, march.gap_curvature, _graze(march, clock, span[0]))
@@ -176,13 +156,13 @@ def _result(
     if outcome is Outcome.CLEAR:
         return answer(end=end)
     assert march.touching is not None
-    travel = march.touching if at_start else march.touching - half_bracket
-    corner, edge, point, gap = _touching_features(search, travel, march.benches)
+    travel = march.touching if at_start else march.touching - march.half
+    corner, edge, point, gap = _touching_features(search, travel, march.pair)
     return answer(
         time=span[0] if at_start else max(clock.time(travel), span[0]),
         time_bracket=None if at_start else (proven, clock.time(march.touching)),
         head=search.path.head(travel),
-        benches=march.benches,
+        benches=march.pair,
         corner=corner,
         edge=edge,
         point=point,
@@ -200,11 +180,11 @@ def _claim(
     if outcome is Outcome.CLEAR:
         return ContactClaim(ClaimKind.CLEAR, *about, proven, end=end.reason, between=between)
     if outcome is Outcome.CONTACT_AT_START:
-        return ContactClaim(ClaimKind.CONTACT_AT_START, *about, benches=march.benches, time=begin, between=between)
+        return ContactClaim(ClaimKind.CONTACT_AT_START, *about, benches=march.pair, time=begin, between=between)
     assert march.touching is not None
     kind, clear_until = (ClaimKind.CONTACT, proven) if proven > begin else (ClaimKind.CONTACT_AT_START, None)
     time = dance.clock.time(march.touching)
-    return ContactClaim(kind, *about, clear_until, benches=march.benches, time=time, between=between)
+    return ContactClaim(kind, *about, clear_until, benches=march.pair, time=time, between=between)
 
 
 def _between(search: ContactSearch) -> BenchBetween | None:

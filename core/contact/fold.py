@@ -13,7 +13,7 @@ import numpy as np
 
 from core import kernels
 from core.contact.brackets import TOUCHES
-from core.contact.search import Approached, ContactSearch, joined
+from core.contact.search import ContactSearch, joined
 from core.dance import RunEnd
 from core.kernels import Ended
 from core.kernels.constants import CHORD, EDGES_PER_WORK, ERROR, FREE, HALF_LENGTH, HALF_WIDTH, NO_BOUND, NO_ROOT, THETA
@@ -41,34 +41,39 @@ def approach_fold(
     stops: list[tuple[float, float]],
     head_speed: float,
     end: RunEnd,
-    first: Approached,
-) -> Approached:
-    """End of a march from a travel [m] to a fold, like that of ContactSearch.approach(); REACHED: clear up to the fold.
+    first: Marched,
+) -> Marched:
+    """A march from a travel [m] to a fold, like ContactSearch.approach(); REACHED: clear up to the fold.
 
     stops: ContactSearch.fold_stops(); first: ContactSearch.approach() to the first of them
     The march goes on beyond a stop if the bound is not enough there, or if a graze that may lie ahead is narrower than
     all before it.
     """
     assert end.theta is not None
-    start, opening, passed = begin, True, Marched(begin)
-    state, result, half_bracket = first
+    start, opening, passed, result = begin, True, Marched(Ended.REACHED, begin), first
     (stop, way), *further = stops
     last = stops[-1][0]
     rings_reach = search.travel_at(search.clear_radius / search.growth) > begin
     while further:
         result = joined(passed, result)
-        if state in TOUCHES or (state is Ended.REACHED and _may_end_at(search, stop, last, result, end.theta)):
-            return state, result, half_bracket
-        if state is Ended.REACHED and rings_reach:
+        reached = result.ended is Ended.REACHED
+        if result.ended in TOUCHES or (reached and _may_end_at(search, stop, last, result, end.theta)):
+            return result
+        if reached and rings_reach:
             start, opening, passed = stop - way, False, result
         else:
             further = further[-1:]
         (stop, way), *further = further
-        state, result, half_bracket = search.approach(start, stop, head_speed, opening=opening)
-    result = joined(passed, result)
-    if state is Ended.REACHED or (state is Ended.STUCK and result.touching is None):
-        state = Ended.REACHED if clear_to_fold(search, min(result.proven, last), end.theta) else Ended.STUCK
-    return state, result, half_bracket
+        result = search.approach(start, stop, head_speed, opening=opening)
+    return ended_at_fold(search, joined(passed, result), last, end.theta)
+
+
+def ended_at_fold(search: ContactSearch, result: Marched, last: float, theta: float) -> Marched:
+    """A march up to `last`, the last travel before a fold [m], with its end at the fold itself."""
+    if result.ended is not Ended.REACHED and not result.hidden:
+        return result
+    clear = clear_to_fold(search, min(result.proven, last), theta)
+    return result._replace(ended=Ended.REACHED if clear else Ended.STUCK)
 
 
 def _may_end_at(search: ContactSearch, early: float, last: float, result: Marched, theta: float) -> bool:

@@ -119,13 +119,13 @@ def grazes(gaps: Gaps, samples: Sequence[Dip]) -> Iterator[Dip]:
 # gap, steps are far shorter than the dip is wide, so the march refines it.
 def least_over(
     gaps: G,
-    march: Callable[[float, float], tuple[G, Ended, Marched, float | None]],
+    march: Callable[[float, float], tuple[G, Marched, float | None]],
     first_touch: Callable[[float, Dip], tuple[Dip, float | None]],
 ) -> tuple[Dip, float | None]:
     """The least gap over the span, and its proven lower bound [m].
 
-    march: with a margin and from a moment on; the gaps that it has looked at, its end and result, and what is proven
-        of the least gap, if it reached the end or gave up
+    march: with a margin and from a moment on; the gaps that it has looked at, its result, and what is proven of the
+        least gap, if it reached the end or gave up
     first_touch: the answer if a dip has no gap, and nothing touches before a moment
     """
     best = sampled_least(gaps, sampled(gaps))
@@ -135,10 +135,10 @@ def least_over(
             if best.gap <= 0.0:
                 return first_touch(begin, best)
             margin = max(best.gap - width, 0.0)
-            gaps, ended, marched, left = march(margin, begin)
+            gaps, marched, left = march(margin, begin)
             if marched.graze is not None and marched.graze.gap < best.gap:
                 best = marched.graze
-            if ended in (Ended.REACHED, Ended.STUCK):
+            if marched.ended in (Ended.REACHED, Ended.STUCK):
                 if left is not None and left >= margin:
                     return best, margin
                 proven = max(proven or 0.0, left or 0.0) or None

@@ -30,7 +30,7 @@ from core.contact.decimal_shapes import (
     exact_separation,
 )
 from core.contact.search import ContactSearch
-from core.kernels import NO_BRACKET, Budget, Ended
+from core.kernels import Budget
 from core.kernels.constants import (
     ARC,
     ARC_ANGLE,
@@ -256,10 +256,10 @@ def narrow_bracket(
     returns: the same with a narrower bracket; the contact is at `touching` - `half`
     head_speed: speed that turns travels into times [m/s]; None with passages, where several do
     """
-    pair = ExactPair(search, march.benches)
+    pair = ExactPair(search, march.pair)
     if march.touching is None or not pair.can_follow:
         return None
-    if not others_clear(search, pair.pair, march.proven, march.touching):
+    if not search.others_clear(pair.pair, march.proven, march.touching):
         return None
     search.budget.take_time()
     with _one_at_a_time(search.budget), localcontext() as context, suppress(Unsolved):
@@ -274,17 +274,9 @@ def narrow_bracket(
             slack = search.travel_rounding(clear, touching)
             sure = pair.stays_within(touching - slack, touching + slack)
             apart = sure and pair.stays_apart(march.proven, clear + slack)
-            return march._replace(proven=clear, touching=touching) if apart else None
+            return march._replace(proven=clear, touching=touching, half=half) if apart else None
         later = Decimal(touching / head_speed) * Decimal(head_speed)
         beyond = clear + abs(clear) * CLEAR_ROUNDING
         if pair.gap(later) <= -GAP_ROUNDING and pair.stays_apart(march.proven, beyond):
-            return march._replace(proven=clear, touching=touching)
+            return march._replace(proven=clear, touching=touching, half=half)
     return None
-
-
-def others_clear(search: ContactSearch, pair: tuple[int, int], start: float, stop: float) -> bool:
-    """True if all pairs except one are proven clear between two travels [m]."""
-    search.scene.left_out, search.scene.left_out_too = pair
-    state, _ = search.march(stop, NO_BRACKET, start=start)
-    search.scene.left_out = search.scene.left_out_too = kernels.NO_BENCH
-    return state is Ended.REACHED

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -23,9 +24,6 @@ from core.paths.spiral import Spiral
 from core.shapes.reach import Reach, directions, reach, ring_bounds
 from core.values import Floats
 
-# End of a march, its result, and the half width of the bracket around its contact [m].
-Approached = tuple[Ended, Marched, float]
-
 MARGIN_MAX = 1e4  # [m]
 # Work after which a search gives up as undecided [1], see core/kernels/constants.py: 2 to 8 s for a first contact, and
 # about the same for a least distance, whose steps end near a bench or an edge and cost more. The default case takes
@@ -34,18 +32,41 @@ WORK_BUDGET = 2e7
 NEAR_WORK_BUDGET = 5e6
 
 
-class ContactSearch:
-    """The kernels' arrays for one dragon, with the current path and margin.
+@dataclass(frozen=True, slots=True, eq=False)
+class SearchInput:
+    """What a search looks for: benches of a dragon on a path that come within a margin [m], of each other or of edges.
 
+    edges: (E, 4) x, y, x, y of edges at rest [m] in the own frame of the path. With edges, every pair is a bench and an
+        edge: edge e has the bench number room + 1 + e
     copies: dragons in one spiral, each turned by a part of a turn; with several, every pair is a bench of the first and
         one of another: bench b of dragon k has the bench number k * (room + 1) + b
+    between: fewest benches between the two of a pair, 1 or more [1]
+    stray: largest distance of every hole from its place [m]; covered: the ground of the benches then
+    timing: largest distance of the head from its place at a rounded time, in addition to the rounding of its travel [m]
+    whole: make room for all benches at once, for questions about each of them
+    """
+
+    dragon: Dragon
+    path: Spiral | Route
+    margin: float
+    edges: Floats | None = None
+    copies: int = 1
+    between: int = 1
+    stray: float = 0.0
+    timing: float = 0.0
+    covered: Callable[[Dragon, float], Reach] = reach
+    whole: bool = False
+
+
+class ContactSearch:
+    """The kernels' arrays for a SearchInput, and its functions; use() takes them to another path and margin.
+
+    copies, between, stray, timing: as in the input, as are dragon and edges, but
     dragon: in the search: with a stray each bench is as large as the ground that it may cover; nominal: as given
     leaders: number of benches that lead the pairs of a march: those up to the first of equal ones
-    stray: [m]; kinds: the hulls of that ground, none without a stray
+    kinds: the hulls of that ground, none without a stray
     rings: lengths of the benches for the kernels, with bounds for the current path and margin
-    sizes: (rows, SIZE_COLUMNS) of the leading benches; own_sizes: the same without the stray; edges: (E, 4) x, y, x, y
-        of edges at rest [m] in the own frame of the path. With edges, every pair is a bench and an edge: edge e has the
-        bench number room + 1 + e
+    sizes: (rows, SIZE_COLUMNS) of the leading benches; own_sizes: the same without the stray
     scene: the same benches on the current path; probe: an interval of it to examine single pairs
     placed: chain (rows, CHAIN_COLUMNS) that clearance() and place_leaders() fill; tried, probed: chains that single
         calls fill. A march writes over them, and over two more of its own: chains holds all five
@@ -54,31 +75,19 @@ class ContactSearch:
         benches, as on a spiral
     work: remaining work of its marches, see WORK_BUDGET, within the budget of the whole question. After a stop of that
         budget, every function that examines benches raises Halted
-    timing: largest distance of the head from its place at a rounded time, in addition to the rounding of its travel [m]
-    between: fewest benches between the two of a pair, 1 or more [1]
     place: origin of the kernels' places, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
 
     margin: float
     clear_radius: float
-    copies = 1
 
-    def __init__(
-        self,
-        dragon: Dragon,
-        path: Spiral | Route,
-        margin: float,
-        edges: Floats | None = None,
-        *,
-        work: float = WORK_BUDGET,
-        budget: Budget | None = None,
-        stray: float = 0.0,
-        covered: Callable[[Dragon, float], Reach] = reach,
-    ) -> None:
+    def __init__(self, sought: SearchInput, *, work: float = WORK_BUDGET, budget: Budget | None = None) -> None:
+        dragon, path, stray, edges = sought.dragon, sought.path, sought.stray, sought.edges
         self.work, self.budget, self.nominal, self.stray = work, budget or Budget(), dragon, stray
-        self.timing, self.kinds, self.between, copies = 0.0, kernels.Kinds(), 1, self.copies
-        self.apart, outer = (0.0, 2) if copies == 1 else (math.tau / copies, 0)
-        self.ground = ground = covered(dragon, stray) if stray > 0.0 else None
+        self.timing, self.between, self.copies = sought.timing, sought.between, sought.copies
+        self.kinds = kernels.Kinds()
+        self.apart, outer = (0.0, 2) if self.copies == 1 else (math.tau / self.copies, 0)
+        self.ground = ground = sought.covered(dragon, stray) if stray > 0.0 else None
         if ground is not None:
             self.kinds.lay(ground.hulls.reshape(-1, 2), ground.kinds, directions())
             dragon = ground.bounds
@@ -89,22 +98,23 @@ class ContactSearch:
         rings.all_radius = math.hypot(0.5 * rings.all_length, rings.all_half_width)
         if ground is not None:
             rings.lay(ground.corners, ground.middle_half_width, ground.within)
-            if copies > 1:
+            if self.copies > 1:
                 rings.lay(*ring_bounds(dragon.chords[: len(ground.kinds)], ground.hulls, ground.kinds, outer))
         self.room = 0
-        self.use(path, margin)
+        self.use(path, sought.margin)
         # no benches are known to be out of reach
-        everyone = len(self.edges) > 0 or copies > 1 or (path.spiral is None and rings.clear_place >= kernels.FREE)
-        self.resize(dragon.benches if everyone else min(dragon.benches, 255))
+        everyone = len(self.edges) > 0 or self.copies > 1 or (path.spiral is None and rings.clear_place >= kernels.FREE)
+        self.resize(dragon.benches if everyone or sought.whole else min(dragon.benches, 255))
 
     @property
     def pairs(self) -> bool:
         """True if any two can touch: three benches or more, or a bench and an edge."""
         return self.dragon.benches >= 3 or len(self.edges) > 0 or self.copies > 1
 
-    def use(self, path: Spiral | Route, margin: float) -> None:
-        """Change the path and the margin of the search."""
+    def use(self, path: Spiral | Route, margin: float, work: float | None = None) -> None:
+        """Go on with another path and margin. work: of the marches there, by default what is left"""
         self.path, self.margin = path, margin
+        self.work = self.work if work is None else work
         self.growth, self.place, self.curve = path.growth, path.place, path.curve
         if path.spiral is None:
             route, self.clear_radius, radius = path.as_route(path.end), kernels.FREE, kernels.FREE
@@ -123,10 +133,6 @@ class ContactSearch:
     def _set_scene(self) -> None:
         self.scene.curve, self.scene.place, self.scene.margin = self.curve, self.place, self.margin
         self.scene.budget, self.scene.kinds, self.scene.between = self.budget, self.kinds, self.between
-
-    def leave_out(self, between: int) -> None:
-        """Count only pairs with at least so many benches between the two."""
-        self.between = self.scene.between = between
 
     def clear_beyond(self, radius: float) -> None:
         """Set clear_radius to the radius from which another bound exceeds the margin on this spiral [m]."""
@@ -200,8 +206,8 @@ class ContactSearch:
 
     def march(
         self, stop: float, half_bracket: float, *, start: float = 0.0, opening: bool = True, dips: bool = False
-    ) -> tuple[Ended, Marched]:
-        """March from start, or from the end of the ring bound, to stop [m of travel]; returns its end and its result.
+    ) -> Marched:
+        """March from start, or from the end of the ring bound, to stop [m of travel].
 
         half_bracket: half the width of the bracket around a contact [m]; NO_BRACKET: any instant of the contact is
             enough; dips: True finds grazes then too
@@ -217,50 +223,52 @@ class ContactSearch:
             opening = False
             start = max(start, clear_until - rounding)
         if not self.pairs or (start >= stop and not opening):
-            return Ended.REACHED, Marched(span[1])
+            return Marched(Ended.REACHED, span[1], half=half_bracket)
         grazes = dips or half_bracket != kernels.NO_BRACKET
         while True:
             most_work = max(min(self.work, self.budget.left), 1.0)
-            ended = self._march.run(start, stop, self.leaders, opening, half_bracket, grazes, rounding, most_work)
-            self.spend(float(self._march.work))
+            result = self._march.run(start, stop, self.leaders, opening, half_bracket, grazes, rounding, most_work)
+            self.spend(result.work)
             self.budget.look()
-            if ended is not Ended.CAPACITY:
+            if result.ended is not Ended.CAPACITY:
                 break
             self.resize(min(4 * self.room, self.dragon.benches))
-        result = self._march.result()
-        proven = span[1] if ended is Ended.REACHED else max(result.proven - rounding, span[0])
-        touching = result.touching
-        if ended is Ended.TOUCHED_AT_START:
-            touching = span[0]
-        return ended, result._replace(proven=proven, touching=touching)
+        proven = span[1] if result.ended is Ended.REACHED else max(result.proven - rounding, span[0])
+        touching = span[0] if result.ended is Ended.TOUCHED_AT_START else result.touching
+        return result._replace(proven=proven, touching=touching, half=half_bracket)
 
-    def approach(self, begin: float, until: float, head_speed: float, *, opening: bool = True) -> Approached:
-        """march() between two travels [m], and the half width of the bracket around its contact [m]."""
+    def approach(self, begin: float, until: float, head_speed: float, *, opening: bool = True) -> Marched:
+        """march() between two travels [m], with the narrowest bracket that rounding allows around its contact."""
         half_bracket = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
-        state, result = self.march(until, half_bracket, start=begin, opening=opening)
-        if state is not Ended.STUCK or result.touching is None:
-            return state, result, half_bracket
+        result = self.march(until, half_bracket, start=begin, opening=opening)
+        if result.ended is not Ended.STUCK or result.touching is None:
+            return result
         for wider in sorted({*BRACKETS_GRAZING, *(wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING)}):
-            if state is not Ended.STUCK or result.touching is None:
+            if result.ended is not Ended.STUCK or result.touching is None:
                 break
             if wider > half_bracket:
-                half_bracket = wider
                 if self.kinds.some:  # one step of hulls costs more than laying out all benches anew
-                    state, further = self.march(until, half_bracket, start=result.proven)
-                    result = joined(result, further)
+                    result = joined(result, self.march(until, wider, start=result.proven))
                 else:
                     proven = result.proven
-                    state, result = self.march(until, half_bracket, start=begin, opening=opening)
+                    result = self.march(until, wider, start=begin, opening=opening)
                     result = result._replace(proven=max(proven, result.proven))
-        return state, result, half_bracket
+        return result
 
-    def narrow_half(self, approached: Approached, head_speed: float) -> float | None:
+    def others_clear(self, pair: tuple[int, int], start: float, stop: float) -> bool:
+        """True if all pairs except one are proven clear between two travels [m]."""
+        self.scene.left_out, self.scene.left_out_too = pair
+        result = self.march(stop, kernels.NO_BRACKET, start=start)
+        self.scene.left_out = self.scene.left_out_too = kernels.NO_BENCH
+        return result.ended is Ended.REACHED
+
+    def narrow_half(self, result: Marched, head_speed: float) -> float | None:
         """Half width to which core/contact/near_graze.py may narrow a wide bracket [m]; None if it is narrow enough, or
         rounding of travels does not allow it."""
-        state, result, half_bracket = approached
         narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
-        wide = state is Ended.TOUCHED and half_bracket > narrow >= 2.0 * self.travel_rounding(result.touching or 0.0)
-        return narrow if wide and not self.stray else None
+        if self.stray or result.ended is not Ended.TOUCHED:
+            return None
+        return narrow if result.half > narrow >= 2.0 * self.travel_rounding(result.touching or 0.0) else None
 
     def fold_stops(self, begin: float, until: float, end: RunEnd) -> list[tuple[float, float]]:
         """Travels before a fold, at `until`, at which a march may end, and their distances from it [m].
@@ -338,6 +346,7 @@ def joined(passed: Marched, further: Marched) -> Marched:
     return further._replace(
         proven=max(passed.proven, further.proven),
         steps=passed.steps + further.steps,
+        work=passed.work + further.work,
         gap_curvature=max(passed.gap_curvature, further.gap_curvature),
         graze=min((dip for dip in (passed.graze, further.graze) if dip is not None), default=None),
     )

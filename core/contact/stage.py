@@ -10,7 +10,7 @@ import numpy as np
 from core import kernels
 from core.contact.brackets import FOLD_SLIVER, TRAVEL_ROUNDING
 from core.contact.gaps import PROFILE_STEP, sample_count
-from core.contact.search import NEAR_WORK_BUDGET, ContactSearch
+from core.contact.search import NEAR_WORK_BUDGET, ContactSearch, SearchInput
 from core.dance import NEAR_FOLD
 from core.dragon import Dragon
 from core.kernels import Budget
@@ -119,8 +119,8 @@ class Stage:
         self.players: list[Player] = []
         first = 0
         for part in performance.parts:
-            search = ContactSearch(part.dance.dragon, part.dance.path, margin, budget=self.budget, stray=stray)
-            search.resize(part.dance.dragon.benches)
+            sought = SearchInput(part.dance.dragon, part.dance.path, margin, stray=stray, whole=True)
+            search = ContactSearch(sought, budget=self.budget)
             self.players.append(Player(part, search, first, span))
             first += part.dance.dragon.benches + 1
         self.turning = _winding_together(performance)

@@ -171,13 +171,13 @@ def least_between(
     begin, until = span = performance.span(*interval)
     stage = last = Stage(performance, span, 0.0, stray=stray, work=WORK_BUDGET, budget=budget)
 
-    def march(margin: float, proven_to: float) -> tuple[Stage, Ended, Marched, float | None]:
+    def march(margin: float, proven_to: float) -> tuple[Stage, Marched, float | None]:
         nonlocal last
         last = Stage(performance, (proven_to, until), margin, stray=stray, work=last.work, budget=budget)
         result = marched(last)
         budget.afford()
         left = margin if result.ended is Ended.REACHED else _left_to_fold(last, result.proven)
-        return last, result.ended, Marched(result.proven, result.touching, graze=result.graze), left
+        return last, result, left
 
     def first_touch(_: float, touching: Dip) -> tuple[Dip, float | None]:
         first = met or first_encounter(performance, stray=stray, start=begin, stop=interval[1], budget=budget)

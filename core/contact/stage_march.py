@@ -2,7 +2,7 @@
 
 Input.  A stage, two times, and half the width of the bracket around an encounter.
 State.  `time`; `length`, the step to try; `aim`, the time of a crossing at which this step stops short.
-Output. How it ended, and the record Met.
+Output. The record Marched.
 
 Invariant, whenever a step begins: no benches of two dragons come within the margin from the start up to `time`. A step
 is taken only if Ensemble.bound() proves more than the margin, after rounding, for every pair of benches of two dragons
@@ -23,8 +23,6 @@ bounded (core/contact/fold.py), and the gaps there exceed the margin by more tha
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from core.contact.brackets import FOLD_WAYS
@@ -32,7 +30,7 @@ from core.contact.fold import THETA_ROUNDING, moved_until
 from core.contact.stage import AFTER, BEFORE, PROBED, WIDTH_ROUNDING, Stage
 from core.kernels import Ended
 from core.kernels.constants import CORNER_SPEED, FREE, NO_BOUND
-from core.kernels.results import Dip
+from core.kernels.results import Dip, Marched
 from core.sampling import crossing
 
 # Half widths of the bracket around an encounter [s]: the first one as a rule, the others where benches meet so slowly
@@ -55,25 +53,6 @@ CROSSING_WIDTH = 1e-3
 BEYOND = (1e-3, 1e-1)
 
 
-class Met(NamedTuple):
-    """Result of a march.
-
-    proven: nothing comes within the margin up to here [s]; touching: time at which two benches are within it for
-        certain [s], None if none was found; rows: those
-    steps: number taken; curvature: the largest bound on the second derivative of a gap that proved one [m/s^2]
-    graze: the least dip of the clearance seen on the way; half: half the width of the bracket [s]
-    """
-
-    ended: Ended
-    proven: float
-    touching: float | None = None
-    rows: tuple[int, int] = (0, 0)
-    steps: int = 0
-    curvature: float = 0.0
-    graze: Dip | None = None
-    half: float = 0.0
-
-
 class EncounterMarch:
     """The steps of one march on a stage, see the top of this file.
 
@@ -84,6 +63,7 @@ class EncounterMarch:
         self.stage, self.dips = stage, dips
         self.steps, self.curvature, self.graze = 0, 0.0, None
         self.time = self.length = 0.0
+        self.work = stage.work
         self.halves = list(HALF_BRACKETS)
         self.half: float = HALF_BRACKETS[0]
         self.aim: float | None = None
@@ -93,7 +73,7 @@ class EncounterMarch:
 
     graze: Dip | None
 
-    def run(self, begin: float, until: float) -> Met:
+    def run(self, begin: float, until: float) -> Marched:
         """The first encounter between two times [s]; wider brackets are tried where narrow ones fail."""
         least = HALF_DIGITS * float(np.spacing(max(abs(begin), abs(until))))
         self.halves = [half for half in HALF_BRACKETS if half > least] or [least]
@@ -106,12 +86,12 @@ class EncounterMarch:
                 break
         return met
 
-    def try_once(self, begin: float, until: float, half: float) -> Met:
+    def try_once(self, begin: float, until: float, half: float) -> Marched:
         """A march between two times [s] that looks for no narrower bracket than this, and so for no shorter steps."""
         self.halves = [half]
         return self._run(begin, until)
 
-    def _run(self, begin: float, until: float) -> Met:
+    def _run(self, begin: float, until: float) -> Marched:
         self.time, self.half, self.aim, self.touching, self._seen = begin, self.halves[0], None, None, []
         self.length = FIRST_STEP
         stage = self.stage
@@ -133,8 +113,9 @@ class EncounterMarch:
         self.time = until
         return self._met(Ended.REACHED, None)
 
-    def _met(self, ended: Ended, touching: float | None) -> Met:
-        return Met(ended, self.time, touching, self.rows, self.steps, self.curvature, self.graze, self.half)
+    def _met(self, ended: Ended, touching: float | None) -> Marched:
+        spent = self.steps, self.work - self.stage.work, self.curvature
+        return Marched(ended, self.time, touching, self.rows, self.half, *spent, self.graze)
 
     def _march(self, stop: float, until: float, speeds: list[float]) -> Ended:
         """Take steps up to `stop`, within which no speed changes; until: end of the whole march [s]."""
@@ -242,13 +223,13 @@ class EncounterMarch:
                 self.graze = Dip(bottom, time, rows)
 
 
-def to_fold(stage: Stage, march: EncounterMarch, begin: float, until: float, folding: list[int]) -> Met:
+def to_fold(stage: Stage, march: EncounterMarch, begin: float, until: float, folding: list[int]) -> Marched:
     """March from a time to the first fold [s]; REACHED: clear up to it.
 
     folding: the parts that fold then or just after, whose motion is bounded at the end instead of followed
     """
     last = until - max(stage.players[k].sliver for k in folding)
-    met = Met(Ended.REACHED, begin)
+    met = Marched(Ended.REACHED, begin)
     begins = begin
     for part in (*FOLD_WAYS, 0.0):
         early = last
@@ -305,7 +286,7 @@ def _way_of(stage: Stage, k: int, time: float, until: float) -> float | None:
     return way * (1.0 + WIDTH_ROUNDING) if stage.ensemble.move(k, way, 1.0) else None
 
 
-def beyond(stage: Stage, met: Met, until: float) -> Met | None:
+def beyond(stage: Stage, met: Marched, until: float) -> Marched | None:
     """A certain encounter after a time at which a march gave up, perhaps not the first; None if none is known."""
     for ahead in BEYOND:
         begin = met.proven + ahead

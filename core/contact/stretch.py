@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from core.contact.brackets import TOUCHES
-from core.contact.fold import least_to_fold
+from core.contact.fold import approach_fold, least_to_fold
 from core.contact.gaps import PROFILE_STEP, Pair, least_over, moments_of, sample_count
+from core.contact.near_graze import narrow_bracket
 from core.contact.search import ContactSearch
+from core.dance import Dance
 from core.kernels import EDGES_PER_WORK, NO_BRACKET, Ended
 from core.kernels.results import Dip, Marched
 
@@ -69,29 +71,47 @@ def least_on(stretch: Stretch) -> tuple[Dip, float | None]:
     """
     search, (_, until), fold = stretch.search, stretch.span, stretch.fold
 
-    def march(margin: float, begin: float) -> tuple[Stretch, Ended, Marched, float | None]:
+    def march(margin: float, begin: float) -> tuple[Stretch, Marched, float | None]:
         search.use(search.path, margin)
-        ended, result = search.march(until, NO_BRACKET, start=begin, dips=True)
+        result = search.march(until, NO_BRACKET, start=begin, dips=True)
         search.budget.afford()
-        left = margin if ended is Ended.REACHED else None
-        if fold is not None and ended in (Ended.REACHED, Ended.STUCK):
+        left = margin if result.ended is Ended.REACHED else None
+        if fold is not None and result.ended in (Ended.REACHED, Ended.STUCK):
             left = least_to_fold(search, min(result.proven, until), fold)
-        return stretch, ended, result, left
+        return stretch, result, left
 
     def first_touch(begin: float, touching: Dip) -> tuple[Dip, float | None]:
         """The first touch, before which nothing touches; if that is not decided, a certain or else a computed touch."""
         search.use(search.path, 0.0)
-        ended, result, half_bracket = search.approach(begin, until, stretch.head_speed)
-        if ended not in TOUCHES or result.touching is None:
+        result = search.approach(begin, until, stretch.head_speed)
+        if result.ended not in TOUCHES or result.touching is None:
             beyond = Stretch(search, (result.proven, until), stretch.head_speed)
-            certain = overlap_beyond(beyond) if ended is Ended.STUCK else None
+            certain = overlap_beyond(beyond) if result.ended is Ended.STUCK else None
             if certain is not None and certain.touching is not None:
-                touching = Dip(0.0, certain.touching, certain.benches)
+                touching = Dip(0.0, certain.touching, certain.pair)
             return touching._replace(gap=0.0), None
-        travel = result.touching - (half_bracket if ended is Ended.TOUCHED else 0.0)
-        return Dip(0.0, travel, result.benches), 0.0
+        travel = result.touching - (result.half if result.ended is Ended.TOUCHED else 0.0)
+        return Dip(0.0, travel, result.pair), 0.0
 
     return least_over(stretch, march, first_touch)
+
+
+def first_met(search: ContactSearch, dance: Dance, span: tuple[float, float]) -> tuple[Marched, Marched | None]:
+    """The first contact of a search between two times [s], also before a fold, in the narrowest bracket; and what
+    overlap_beyond() finds where the search gives up."""
+    clock, end = dance.clock, dance.end
+    first, last = clock.travel(span[0]), clock.travel(span[1])
+    to_fold = dance.nears_fold(span[1])
+    stops = search.fold_stops(first, last, end) if to_fold else [(last, 0.0)]
+    march = search.approach(first, stops[0][0], clock.slowest)
+    if to_fold and march.ended not in TOUCHES:
+        march = approach_fold(search, first, stops, clock.slowest, end, march)
+    narrow = search.narrow_half(march, clock.slowest)
+    if narrow is not None:
+        march = narrow_bracket(search, march, narrow, None if dance.passages else clock.slowest) or march
+    if march.ended is not Ended.STUCK:
+        return march, None
+    return march, overlap_beyond(Stretch(search, (march.proven, stops[-1][0]), clock.slowest))
 
 
 # A search gives up where rounding hides whether two benches touch. A little further on they may be apart again, or
@@ -102,10 +122,10 @@ def overlap_beyond(stretch: Stretch) -> Marched | None:
     known."""
     search, (proven, until) = stretch.search, stretch.span
     for beyond in BEYOND:
-        ended, result, _ = search.approach(min(proven + beyond, until), until, stretch.head_speed)
-        if ended in TOUCHES and result.touching is not None:
+        result = search.approach(min(proven + beyond, until), until, stretch.head_speed)
+        if result.ended in TOUCHES and result.touching is not None:
             return result
-        if ended is Ended.REACHED:
+        if result.ended is Ended.REACHED:
             return None
     for travel in moments_of(stretch):
         if min(search.work, search.budget.left) <= search.room:
@@ -113,5 +133,5 @@ def overlap_beyond(stretch: Stretch) -> Marched | None:
         search.spend(float(search.room))
         gap, pair = search.clearance(travel)
         if gap <= search.margin and search.surely_within(travel, pair):
-            return Marched(proven, travel, pair)
+            return Marched(Ended.TOUCHED, proven, travel, pair)
     return None

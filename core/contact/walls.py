@@ -9,12 +9,9 @@ import numpy as np
 
 from core import kernels
 from core.contact.answer import Outcome
-from core.contact.brackets import TOUCHES
-from core.contact.fold import clear_to_fold
 from core.contact.gaps import Pair
-from core.contact.near_graze import narrow_bracket
-from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, ContactSearch, before_fold
-from core.contact.stretch import Stretch, least_on, overlap_beyond
+from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, ContactSearch, SearchInput, before_fold
+from core.contact.stretch import Stretch, first_met, least_on
 from core.dance import Dance
 from core.display import Readable, display
 from core.dragon import Stray, checked_stray
@@ -181,7 +178,8 @@ def venue_clearance(
     areas = []
     for area in venue.areas:
         edges = own_edges(area, frame)
-        search = ContactSearch(dance.dragon, dance.path, margin, edges, work=share, budget=budget, stray=strayed)
+        sought = SearchInput(dance.dragon, dance.path, margin, edges, stray=strayed, timing=dance.clock.rounding(until))
+        search = ContactSearch(sought, work=share, budget=budget)
         areas.append(_area_clearance(search, area.name, dance, (begin, until), nearest))
     return VenueClearance(_misplaced(dance, venue, begin), tuple(areas))
 
@@ -196,32 +194,24 @@ def _area_clearance(
 ) -> AreaClearance:
     """The benches and one area between two times [s]."""
     (begin, until), clock = span, dance.clock
-    first, last, search.timing = clock.travel(begin), clock.travel(until), clock.rounding(until)
+    first, last = clock.travel(begin), clock.travel(until)
     fold = dance.end.theta if dance.nears_fold(until) else None
     last = last if fold is None else before_fold(last)
-    state, result, half_bracket = search.approach(first, last, clock.slowest)
-    narrow = search.narrow_half((state, result, half_bracket), clock.slowest)
-    if narrow is not None:
-        known = narrow_bracket(search, result, narrow, None if dance.passages else clock.slowest)
-        result, half_bracket = (result, half_bracket) if known is None else (known, narrow)
-    if fold is not None and state not in TOUCHES and result.touching is None:
-        state = Ended.REACHED if clear_to_fold(search, min(result.proven, last), fold) else Ended.STUCK
+    result, certain = first_met(search, dance, span)
     outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
     overlapping = None
-    if state is Ended.STUCK:
-        certain = overlap_beyond(Stretch(search, (result.proven, last), clock.slowest))
+    if result.ended is Ended.STUCK:
         if certain is not None and certain.touching is not None:
-            until, overlapping = clock.time(certain.touching), certain.benches[0]
+            until, overlapping = clock.time(certain.touching), certain.pair[0]
         outcome, bracket = Outcome.UNDECIDED, (max(clock.time(result.proven), begin), until)
-    elif state is not Ended.REACHED:
-        at_start = state is Ended.TOUCHED_AT_START
+    elif result.ended is not Ended.REACHED:
+        at_start = result.ended is Ended.TOUCHED_AT_START
         assert result.touching is not None
-        travel = result.touching - (0.0 if at_start else half_bracket)
+        travel = result.touching - (0.0 if at_start else result.half)
         outcome = Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT
         time = begin if at_start else max(clock.time(travel), begin)
         bracket = None if at_start else (max(clock.time(result.proven), begin), clock.time(result.touching))
-        pair = result.benches
-        bench, (point, _, gap) = pair[0], _witnesses(search, travel, pair, dance.path.frame)
+        bench, (point, _, gap) = result.pair[0], _witnesses(search, travel, result.pair, dance.path.frame)
     nearest = _nearest(search, dance, (begin, first, last), fold) if with_nearest else None
     return AreaClearance(name, outcome, time, bracket, bench, point, nearest, gap, overlapping)
 

@@ -113,8 +113,8 @@ class Bands:
         high_interval = kernels.Interval(high, before_high, after_high, self.motions[1])
         return kernels.BandMarch(low_interval, high_interval, self.shifts)
 
-    def prove(self, low: float, high: float, outer: float) -> tuple[Ended, Marched]:
-        """Outcome of a march for all pitches in [low, high] while the head's radius falls from outer to the circle [m].
+    def prove(self, low: float, high: float, outer: float) -> Marched:
+        """A march for all pitches in [low, high] while the head's radius falls from outer to the circle [m].
 
         REACHED: all are clear; TOUCHED: the lowest one is not; STUCK: not provable in one band; UNBOUNDED and
         BENCH_FOLDED: perhaps not provable in narrower bands either, because no bound holds far out, a handle may move
@@ -124,7 +124,7 @@ class Bands:
         search.use(Spiral(low, self.start_turns), self.margin)
         clear = self._clear_radius(low / math.tau, high / math.tau)
         if clear >= kernels.FREE:
-            return Ended.UNBOUNDED, Marched(outer)
+            return Marched(Ended.UNBOUNDED, outer)
         outer = min(outer, max(clear, self.radius))
         self.marches += 1
         rounding = TRAVEL_ROUNDING * outer * max(outer / (low / math.tau), 1.0)
@@ -132,12 +132,12 @@ class Bands:
         while True:
             march = self.march_to(high / math.tau)
             budget = min(BAND_WORK - self.work, search.budget.left)
-            ended = march.run(outer, self.radius, search.leaders, rounding, least_step, budget)
-            self.work += float(march.work)
-            search.spend(float(march.work))
+            result = march.run(outer, self.radius, search.leaders, rounding, least_step, budget)
+            self.work += result.work
+            search.spend(result.work)
             search.budget.look()
-            if ended is not Ended.CAPACITY:
-                return ended, march.result()
+            if result.ended is not Ended.CAPACITY:
+                return result
             search.resize(min(4 * search.room, search.dragon.benches))
             self._make_room(search.room)
 
@@ -161,8 +161,8 @@ class Bands:
         bands = [(low, high, math.inf) for low, high in pairwise(ends)]
         while bands:
             low, high, outer = bands.pop()
-            state, result = self.prove(low, high, outer)
-            if state is Ended.REACHED:
+            result = self.prove(low, high, outer)
+            if result.ended is Ended.REACHED:
                 proven = low
                 continue
             outer = result.proven
@@ -172,10 +172,10 @@ class Bands:
             if high - low < BAND_MIN:
                 self.graze = None
                 return proven, Descent.STUCK
-            if state in (Ended.UNBOUNDED, Ended.BENCH_FOLDED) and high - low < UNBOUNDED_WITHIN * high:
+            if result.ended in (Ended.UNBOUNDED, Ended.BENCH_FOLDED) and high - low < UNBOUNDED_WITHIN * high:
                 return proven, Descent.UNBOUNDED
             border = None
-            if state is Ended.TOUCHED:
+            if result.ended is Ended.TOUCHED:
                 bands, stopped, self.graze = [], Descent.BORDER, None
                 if high - low <= WIDTH_FOLLOWED * high:
                     border = self.border(low, high, result)
@@ -192,7 +192,7 @@ class Bands:
         upwards until the dip is clear, then by false position (Illinois) to the pitch at which it reaches the margin.
         """
         assert contact.touching is not None
-        pair = contact.benches
+        pair = contact.pair
         below, radius = self.dip(low, contact.touching, pair)
         if below > self.margin:
             return None

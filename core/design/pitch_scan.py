@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from core import plots
-from core.contact.fold import clear_to_fold
-from core.contact.search import MARGIN_MAX, WORK_BUDGET, ContactSearch, before_fold
+from core.contact.fold import ended_at_fold
+from core.contact.search import MARGIN_MAX, WORK_BUDGET, ContactSearch, SearchInput, before_fold
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
 from core.display import format_range
@@ -125,22 +125,21 @@ class Stops:
         """
         end = Dance(self.dragon, path).end
         if self.search is None:
-            self.search = ContactSearch(self.dragon, path, self.margin, budget=self.budget)
+            self.search = ContactSearch(SearchInput(self.dragon, path, self.margin), budget=self.budget)
         else:
-            self.search.use(path, self.margin)
-            self.search.work = WORK_BUDGET
+            self.search.use(path, self.margin, WORK_BUDGET)
         search, to_fold = self.search, end.reason is EndReason.FOLD
         last = before_fold(end.time) if to_fold else end.time
-        half_bracket = max(RADIUS_WIDTH, 2.0 * search.travel_rounding(last))
-        state, result = search.march(last, half_bracket)
-        if state is Ended.STUCK and result.touching is not None:
-            state, result, half_bracket = search.approach(0.0, last, 1.0)
-        if state in (Ended.REACHED, Ended.STUCK) and result.touching is None and to_fold:
+        result = search.march(last, max(RADIUS_WIDTH, 2.0 * search.travel_rounding(last)))
+        if result.ended is Ended.STUCK and not result.hidden:
+            result = search.approach(0.0, last, 1.0)
+        if to_fold:
             assert end.theta is not None
-            state = Ended.REACHED if clear_to_fold(search, min(result.proven, last), end.theta) else Ended.STUCK
-        if state is Ended.REACHED:
+            result = ended_at_fold(search, result, last, end.theta)
+        if result.ended is Ended.REACHED:
             return None
-        travel = {Ended.TOUCHED: (result.touching or 0.0) - half_bracket, Ended.STUCK: result.proven}.get(state, 0.0)
+        travels = {Ended.TOUCHED: (result.touching or 0.0) - result.half, Ended.STUCK: result.proven}
+        travel = travels.get(result.ended, 0.0)
         return search.growth * search.theta_at(travel)
 
 

@@ -110,9 +110,9 @@ class PitchSearch:
                     rule = "must be fewer: no pitch up to {most} lets so many reach a turning circle of {radius}"
                     values = quantities("m", 6, most=SIZE_MAX, radius=self.radius)
                     raise InvalidValue("dragons", rule, got=self.search.copies, **values)
-                state, result = self.ways.march(SIZE_MAX)
-                if state in TOUCHES and result.benches[1] - result.benches[0] == 2:
-                    raise dragon_too_near(self.search, result.benches[0], self.margin)
+                result = self.ways.march(SIZE_MAX)
+                if result.ended in TOUCHES and result.pair[1] - result.pair[0] == 2:
+                    raise dragon_too_near(self.search, result.pair[0], self.margin)
                 rule = "must be larger: no pitch up to {most} lets this dragon reach the circle"
                 values = quantities("m", got=self.radius) | quantities("m", 6, most=SIZE_MAX)
                 raise InvalidValue("turning_radius", rule, **values)
@@ -189,12 +189,12 @@ class PitchSearch:
         for k, sample in enumerate(grid):
             feasible = False
             if touching is None or not self.ways.still_touches(sample, *touching):
-                state, result = self.ways.march(sample)
-                feasible = state is Ended.REACHED
+                result = self.ways.march(sample)
+                feasible = result.ended is Ended.REACHED
                 touching = None
-                if state not in (Ended.REACHED, Ended.BENCH_FOLDED) and result.touching is not None:
+                if result.ended not in (Ended.REACHED, Ended.BENCH_FOLDED) and result.touching is not None:
                     radius = self.search.theta_at(result.touching) * self.search.growth
-                    touching = (radius, *result.benches)
+                    touching = (radius, *result.pair)
             if feasible and not end:
                 end, _ = bisect(lambda pitch: not self.is_clear(pitch), sample, grid[k - 1], width=PITCH_WIDTH)
             elif end and not feasible:
@@ -210,23 +210,23 @@ class PitchSearch:
             travel = self.search.travel_at(graze[1] / self.search.growth)
             return self._met(travel, travel, graze[0])
         below = BELOW
-        state, result = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
+        result = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
         # on a wide spiral rounding hides a contact at so small a distance below
-        while state is Ended.STUCK and result.touching is None and below < PASSED_OVER_WIDE * infeasible:
+        while result.hidden and below < PASSED_OVER_WIDE * infeasible:
             below *= 10.0
-            state, result = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
-        if state is Ended.REACHED:
-            state, result = self.ways.march(infeasible, width=CONTACT_WIDTH)
-        if state is Ended.STUCK and result.touching is None:  # but a contact at an end of the way is never hidden
-            state, result = self.ways.march(infeasible)
-        if state is Ended.TOUCHED_AT_START:
-            return LimitedBy.START, result.benches, self.search.growth * 2.0 * math.pi * self.start_turns
-        if state is Ended.BENCH_FOLDED:
+            result = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
+        if result.ended is Ended.REACHED:
+            result = self.ways.march(infeasible, width=CONTACT_WIDTH)
+        if result.hidden:  # but a contact at an end of the way is never hidden
+            result = self.ways.march(infeasible)
+        if result.ended is Ended.TOUCHED_AT_START:
+            return LimitedBy.START, result.pair, self.search.growth * 2.0 * math.pi * self.start_turns
+        if result.ended is Ended.BENCH_FOLDED:
             return LimitedBy.FOLD, None, self.radius
         if result.touching is None:
             raise Halted(self.search.budget)  # rounding hides whether any pitch below is feasible
-        travel = result.touching - (CONTACT_WIDTH if state is Ended.TOUCHED else 0.0)
-        return self._met(travel, travel + BOTTOM_WITHIN, result.benches)
+        travel = result.touching - (CONTACT_WIDTH if result.ended is Ended.TOUCHED else 0.0)
+        return self._met(travel, travel + BOTTOM_WITHIN, result.pair)
 
     def _met(self, travel: float, end: float, pair: tuple[int, int]) -> tuple[LimitedBy, tuple[int, int], float]:
         """Limit of a pair that meets after a travel: contact on the circle, or a graze at its dip before `end` [m]."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from core import kernels
-from core.contact.fold import THETA_ROUNDING, clear_to_fold
-from core.contact.search import ContactSearch, before_fold
+from core.contact.fold import THETA_ROUNDING, ended_at_fold
+from core.contact.search import ContactSearch, SearchInput, before_fold
 from core.design.pitch_bands import Bands
 from core.dragon import Dragon
 from core.errors import SIZE_MIN, Quantity, TooMuchWork, quantities, too_much
@@ -31,16 +31,6 @@ NEARER = 0.8
 LOOKED_AT = 2
 
 
-class SearchBetween(ContactSearch):
-    """The search for contacts between dragons: `copies` of one dragon on spirals, each turned by a part of a turn."""
-
-    def __init__(
-        self, dragon: Dragon, path: Spiral, copies: int, margin: float, *, work: float, budget: Budget, stray: float
-    ) -> None:
-        self.copies = copies
-        super().__init__(dragon, path, margin, work=work, budget=budget, stray=stray)
-
-
 class Ways:
     """The ways of one dragon from the start to the circle, one for each pitch.
 
@@ -62,14 +52,12 @@ class Ways:
         self.radius, self.start_turns, self.margin = radius, start_turns, margin
         self.lowest = max(radius / start_turns, SIZE_MIN)
         path, budget = Spiral(self.lowest, start_turns), (budget or Budget()).within(PITCH_WORK)
-        if dragons == 1:
-            self.search = ContactSearch(dragon, path, margin, work=WAY_WORK, budget=budget, stray=stray)
-        else:
-            self.search = SearchBetween(dragon, path, dragons, margin, work=WAY_WORK, budget=budget, stray=stray)
+        sought = SearchInput(dragon, path, margin, copies=dragons, stray=stray)
+        self.search = ContactSearch(sought, work=WAY_WORK, budget=budget)
         self.bands = Bands(self.search, radius, start_turns, margin)
         self.marched, self.tried = 0, self.lowest
 
-    def march(self, pitch: float, width: float = NO_BRACKET, work: float = WAY_WORK) -> tuple[Ended, Marched]:
+    def march(self, pitch: float, width: float = NO_BRACKET, work: float = WAY_WORK) -> Marched:
         """March from the start to the circle; REACHED proves that every clearance on the way exceeds the margin.
 
         width: half width of the bracket around a contact [m of travel]; NO_BRACKET: any instant of it is enough
@@ -79,8 +67,7 @@ class Ways:
         search, self.tried = self.search, pitch
         search.budget.afford()
         path = Spiral(pitch, self.start_turns)
-        search.use(path, self.margin)
-        search.work = work
+        search.use(path, self.margin, work)
         self.marched += 1
         self._start_nearer(path)
         circle = self.radius / path.growth
@@ -89,26 +76,25 @@ class Ways:
             width = max(width, 2.0 * search.travel_rounding(0.0, stop))
         fold, bench = (0.0, None) if self.bands.curved_little else end_theta(search.dragon, path)
         if fold > circle * (1.0 - THETA_ROUNDING):
-            return Ended.BENCH_FOLDED if fold > circle * (1.0 + THETA_ROUNDING) else Ended.STUCK, Marched(0.0)
-        for state, travel in () if width != NO_BRACKET else ((Ended.TOUCHED_AT_START, 0.0), (Ended.TOUCHED, stop)):
+            return Marched(Ended.BENCH_FOLDED if fold > circle * (1.0 + THETA_ROUNDING) else Ended.STUCK, 0.0)
+        for ended, travel in () if width != NO_BRACKET else ((Ended.TOUCHED_AT_START, 0.0), (Ended.TOUCHED, stop)):
             # Most ways with a contact show it at one of their ends, which needs no long dragon.
             gap, pair = search.clearance(travel, min(LOOKED_AT, search.room))
             if gap <= self.margin and search.surely_within(travel, pair):
-                return state, Marched(0.0, travel, pair)
+                return Marched(ended, 0.0, travel, pair)
         if bench is None or search.copies > 1 or search.travel_at(fold) - stop > FINE_NEAR_FOLD:
             return search.march(stop, width)
         last = min(stop, before_fold(search.travel_at(fold)))
-        state, result = search.march(last, CONTACT_WIDTH if width == NO_BRACKET else width)
-        if (state is Ended.STUCK and result.touching is None) or (state is Ended.REACHED and last < stop):
-            state = Ended.REACHED if clear_to_fold(search, min(result.proven, last), fold) else Ended.STUCK
-        return state, result
+        result = search.march(last, CONTACT_WIDTH if width == NO_BRACKET else width)
+        passed = result.ended is Ended.REACHED and last == stop
+        return result if passed else ended_at_fold(search, result, last, fold)
 
     def is_clear(self, pitch: float) -> bool | None:
         """True if the whole way is free of contact; None if rounding of a graze hides it."""
         for width, work in ((NO_BRACKET, WAY_WORK), (CONTACT_WIDTH, FINER_WORK)):
-            state, result = self.march(pitch, width, work)
-            if state is not Ended.STUCK or result.touching is not None:
-                return state is Ended.REACHED
+            result = self.march(pitch, width, work)
+            if not result.hidden:
+                return result.ended is Ended.REACHED
         return None
 
     def grazes(self, pitch: float) -> bool:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core import kernels
-from core.contact.search import ContactSearch
+from core.contact.search import ContactSearch, SearchInput
 from core.dance import Dance
 from core.display import Readable
 from core.errors import InvalidValue, Quantity, bound, checked_number, question_about
@@ -135,7 +135,7 @@ def highest_speed(
     >>> round(highest_speed(Dance(Dragon(), Turn(1.7))).speed, 6)
     1.604793
     """
-    dragon, clock, end = dance.dragon, dance.clock, dance.end
+    clock, end = dance.clock, dance.end
     stop = None if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
     if dance.ends_by(end.time if stop is None else stop):
         values = {"end": bound(end.time, 9, "s"), **end.values}
@@ -148,8 +148,7 @@ def highest_speed(
         rule = "must be before {end}, when bench {bench} folds and speeds grow without bound"
         raise InvalidValue("stop", rule, got=Quantity(stop, "s"), **values)
     begin, until = dance.span(dance.begin if start is None else start, stop)
-    search = ContactSearch(dragon, dance.path, 0.0, budget=budget)
-    search.resize(dragon.benches)
+    search = ContactSearch(SearchInput(dance.dragon, dance.path, 0.0, whole=True), budget=budget)
     peaks = [_peak_of(search, period) for period in clock.periods(begin, until)]
     highest = max(peaks, key=lambda peak: peak.speed)
     proven = [peak.speed_bracket[1] for peak in peaks]
@@ -241,11 +240,9 @@ def first_excess(
     (14.13, 1)
     """
     limit = checked_limit(speed_limit)
-    dragon = dance.dragon
     begin, until = dance.span(dance.begin if start is None else start, stop)
-    search = ContactSearch(dragon, dance.path, 0.0, budget=budget)
-    search.resize(dragon.benches)
-    search.timing, undecided = dance.clock.rounding(until), None
+    sought = SearchInput(dance.dragon, dance.path, 0.0, timing=dance.clock.rounding(until), whole=True)
+    search, undecided = ContactSearch(sought, budget=budget), None
     for period in dance.clock.periods(begin, until):
         excess = _excess_in(search, period, limit) if period.speed > 0.0 else None
         if excess is None:

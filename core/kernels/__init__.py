@@ -81,7 +81,7 @@ from core.kernels.rings import (
 )
 from core.kernels.rounding import joint_misses, piece_slides
 from core.kernels.route import cubic_arcs, route_points
-from core.kernels.scene import Interval, MarchState, Scene
+from core.kernels.scene import Interval, Scene
 from core.kernels.speed import Peak
 from core.kernels.spiral import (
     COMPILED,

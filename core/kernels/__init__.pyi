@@ -237,11 +237,7 @@ def pair_most(scene: Scene, interval: Interval, place: float, h: float, a: int, 
 
 # -- searches --
 
-class MarchState:
-    work: float
-    def result(self) -> Marched: ...
-
-class March(MarchState):
+class March:
     def __init__(self, interval: Interval, probe: Interval, opening: Floats) -> None: ...
     def run(
         self,
@@ -253,7 +249,7 @@ class March(MarchState):
         grazes: bool,
         rounding: float,
         most_work: float,
-    ) -> Ended: ...
+    ) -> Marched: ...
 
 class Member:
     def __init__(
@@ -294,11 +290,11 @@ class Ensemble:
     def rate(self, which: int, a: int, b: int) -> float: ...
     def left(self, moved: Floats) -> float: ...
 
-class BandMarch(MarchState):
+class BandMarch:
     def __init__(self, low: Interval, high: Interval, shifts: Floats) -> None: ...
     def run(
         self, outer: float, inner: float, leaders: int, rounding: float, least_step: float, most_work: float
-    ) -> Ended: ...
+    ) -> Marched: ...
 
 class Peak:
     rate: float

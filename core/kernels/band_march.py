@@ -3,8 +3,6 @@
 import cython
 from cython.cimports.libc.math import cos, sin, sqrt
 
-import core.kernels.constants as of_python  # only for results: compiled enums are plain numbers
-
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.chain import extend_chain, start_chain
     from core.kernels.clearance import row_gap
@@ -153,7 +151,7 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
 #         benches that lead pairs (leaders).
 # State:  `radius` and `place` of the head at the lowest growth; h, the travel to try there; `placed`, the last handle
 #         that the chains at the beginning have; `bounded`, whether bounds were known in the last step.
-# Output: how it ended, and the record Marched.
+# Output: the record Marched.
 class BandMarch(MarchState):
     """All growths between two at once, proven clear while the head goes inwards.
 
@@ -172,8 +170,8 @@ class BandMarch(MarchState):
 
         outer, inner: head radii [m]; rounding: largest error of a travel of the head [m]; least_step: head travel below
         which it gives up [m]; most_work: work after which it gives up
-        returns: REACHED; TOUCHED at the lowest growth; STUCK: not provable in one band; UNBOUNDED, BENCH_FOLDED:
-        perhaps not provable in any band, because a handle may move backwards or a bench folds; CAPACITY
+        returns: a Marched that is REACHED; TOUCHED at the lowest growth; STUCK: not provable in one band; UNBOUNDED or
+        BENCH_FOLDED: perhaps not provable in any band, because a handle may move backwards or a bench folds; CAPACITY
         """
         low = self.band.low.scene.curve.growth
         self.begin(outer)
@@ -185,7 +183,7 @@ class BandMarch(MarchState):
         self.bounded = True
         with cython.nogil:
             self.march(self.band.low.scene, self.band, inner, least_step, most_work)
-        return of_python.Ended(self.ended)
+        return self.result()
 
     def march(self, scene, band, inner, least_step, most_work):
         """Take steps to the end."""

@@ -3,7 +3,6 @@
 import cython
 from cython.cimports.libc.math import fabs
 
-import core.kernels.constants as of_python  # only for results: compiled enums are plain numbers
 from core.kernels.results import Dip
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
@@ -29,7 +28,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # State. `travel`; the interval with the chains at travel and at travel + h, up to the last handle that matters there;
 # h, the step to try; `aims`, whether this step stops short of a contact, and `target`, the travel of that contact;
 # `opening`, the chain at the start.
-# Output. How it ended, see "Ends" below, and the record Marched.
+# Output. The record Marched, with how it ended: see "Ends" below.
 #
 # Invariant, whenever the loop begins: no two benches that share no handle come within the margin in [start, travel].
 # 1. A step is taken only if interval_least() proves more than the margin, after rounding, for every pair led by the
@@ -114,7 +113,7 @@ class March(MarchState):
         self.graze_first = self.graze_second = 0
 
     def run(self, start, stop, leaders, at_start, half_bracket, grazes, rounding, most_work):
-        """Advance the head from `start` to `stop` [m of travel]; returns how it ended.
+        """Advance the head from `start` to `stop` [m of travel]; returns a Marched.
 
         leaders: number of benches whose pairs must be followed; at_start: follow all pairs until every bench has passed
             the start of the one before it
@@ -131,7 +130,10 @@ class March(MarchState):
         self.most_work = most_work
         with cython.nogil:
             self.march(self.interval.scene)
-        return of_python.Ended(self.ended)
+        graze = None
+        if self.grazed:
+            graze = Dip(float(self.graze_gap), float(self.graze_travel), (self.graze_first, self.graze_second))
+        return self.result(self.gap_curvature, graze)
 
     def march(self, scene):
         """Take steps to the end."""
@@ -150,13 +152,6 @@ class March(MarchState):
             self.proven = self.stop
             self.end(Ended.REACHED)
         return Step.ENDED
-
-    def result(self):
-        """What the march has found so far, see Marched in results.py."""
-        graze = None
-        if self.grazed:
-            graze = Dip(float(self.graze_gap), float(self.graze_travel), (self.graze_first, self.graze_second))
-        return MarchState.result(self, self.gap_curvature, graze)
 
     def repeats_ahead(self, scene):
         """Whether the head is still before rings.end_place, beyond which nothing touches (rings.py)."""

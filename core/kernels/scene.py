@@ -3,6 +3,7 @@
 import cython
 from cython.cimports.libc.math import cos, fabs, sin
 
+import core.kernels.constants as of_python  # only for results: compiled enums are plain numbers
 from core.kernels.results import Marched
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
@@ -223,9 +224,10 @@ class MarchState:
         return Step.ENDED
 
     def result(self, curvature=0.0, graze=None):
-        """What the steps have found so far, see Marched in results.py."""
-        touching = float(self.touching) if self.meets else None
-        return Marched(float(self.proven), touching, (self.first, self.second), self.steps, float(curvature), graze)
+        """What the steps found, see Marched in results.py."""
+        ended, touching = of_python.Ended(self.ended), float(self.touching) if self.meets else None
+        spent = self.steps, float(self.work), float(curvature)
+        return Marched(ended, float(self.proven), touching, (self.first, self.second), 0.0, *spent, graze)
 
 
 class Band:

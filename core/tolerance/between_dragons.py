@@ -20,7 +20,7 @@ from core.contact.search import WORK_BUDGET
 from core.contact.stage import Stage
 from core.dance import EndReason
 from core.display import WithArrays, display
-from core.kernels import Budget, Ended
+from core.kernels import Budget
 from core.kernels.results import Dip, Marched
 from core.language import say
 from core.motion.trajectory import trajectory
@@ -92,11 +92,11 @@ class Between:
         span = (self.span[0] if begin is None else begin, self.span[1])
         return Stage(self.performance, span, 0.0, stray=stray, work=WORK_BUDGET, budget=self.budget)
 
-    def march(self, stray: float, begin: float) -> tuple[Stage, bool, Marched]:
+    def march(self, stray: float, begin: float) -> tuple[Stage, Marched]:
         stage = self.gaps(stray, begin)
         met = marched(stage, dips=False)
         self.budget.afford()
-        return stage, met.ended is Ended.REACHED, Marched(met.proven, met.touching, met.rows, met.steps, met.curvature)
+        return stage, met
 
     def safe(self, most: float) -> SafeStray:
         """The largest stray up to `most` that is safe between dragons; 0 at the first touch, or at a sampled one if

@@ -22,9 +22,9 @@ from typing import Protocol, TypeVar
 
 from core.contact.between import held_apart
 from core.contact.brackets import TOUCHES
-from core.contact.fold import clear_to_fold
+from core.contact.fold import ended_at_fold
 from core.contact.gaps import Gaps, refined, sampled, sampled_again, sampled_least
-from core.contact.search import ContactSearch
+from core.contact.search import ContactSearch, SearchInput
 from core.contact.stretch import Stretch
 from core.dance import Dance
 from core.dragon import Dragon
@@ -68,18 +68,17 @@ class Field:
     def gaps(self, stray: float, covered: Callable[[Dragon, float], Reach] = reach) -> Stretch:
         """The gaps of the ground that benches may cover."""
         where = (self.dance.dragon, self.dance.path, 0.0, self.edges)
-        search = ContactSearch(*where, work=self.work, budget=self.budget, stray=stray, covered=covered)
-        search.leave_out(self.between)
+        sought = SearchInput(*where, between=self.between, stray=stray, covered=covered)
+        search = ContactSearch(sought, work=self.work, budget=self.budget)
         return Stretch(search, self.span, self.dance.clock.slowest, self.fold)
 
-    def march(self, stray: float, begin: float) -> tuple[Stretch, bool, Marched]:
+    def march(self, stray: float, begin: float) -> tuple[Stretch, Marched]:
         gaps, until = self.gaps(stray), self.span[1]
-        ended, result = gaps.search.march(until, NO_BRACKET, start=begin)
+        result = gaps.search.march(until, NO_BRACKET, start=begin)
         self.budget.afford()
-        passed = ended is Ended.REACHED
-        if self.fold is not None and result.touching is None and ended in (Ended.REACHED, Ended.STUCK):
-            passed = clear_to_fold(gaps.search, min(result.proven, until), self.fold)
-        return gaps, passed, result
+        if self.fold is not None:
+            result = ended_at_fold(gaps.search, result, until, self.fold)
+        return gaps, result
 
     @property
     def straying(self) -> float:
@@ -146,9 +145,9 @@ def _safe_stray(field: Field, most: float) -> SafeStray:
     nominal = sampled_ground(field, 0.0)
     if nominal.gap > 0.0:
         return safe_stray(field, most, nominal)
-    state, touch, _ = field.gaps(0.0).search.approach(*field.span, field.dance.clock.slowest)
-    if touch.touching is not None and state in TOUCHES:
-        nominal = Dip(0.0, touch.touching, touch.benches)
+    touch = field.gaps(0.0).search.approach(*field.span, field.dance.clock.slowest)
+    if touch.touching is not None and touch.ended in TOUCHES:
+        nominal = Dip(0.0, touch.touching, touch.pair)
     return SafeStray(0.0, nominal, touch.steps, touches=True)
 
 
@@ -170,8 +169,8 @@ class Ground(Protocol[G_co]):
     def gaps(self, stray: float, /) -> G_co:
         """The gaps of the grounds with a stray [m]."""
 
-    def march(self, stray: float, begin: float, /) -> tuple[G_co, bool, Marched]:
-        """The gaps with a stray, whether no grounds meet from a moment on, which is proven, and the march."""
+    def march(self, stray: float, begin: float, /) -> tuple[G_co, Marched]:
+        """The gaps with a stray, and a march from a moment on; REACHED: no grounds meet, which is proven."""
 
 
 def sampled_ground(ground: Ground[Gaps], stray: float, gaps_of: Callable[[float], Gaps] | None = None) -> Dip:
@@ -198,9 +197,9 @@ def safe_stray(ground: Ground[Gaps], most: float, nominal: Dip) -> SafeStray:
             tried = stray * (1.0 - below) if limiting is not None else stray
             if tried < STRAY_MIN:
                 return SafeStray(0.0, limiting, steps)
-            gaps, passed, marched = ground.march(tried, proven_to)
+            gaps, marched = ground.march(tried, proven_to)
             steps += marched.steps
-            if passed:
+            if marched.ended is Ended.REACHED:
                 return SafeStray(tried, limiting, steps, proof=marched)
             if marched.touching is None:
                 break

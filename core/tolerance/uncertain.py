@@ -23,7 +23,7 @@ from functools import partial
 import numpy as np
 
 from core import kernels
-from core.contact.search import ContactSearch
+from core.contact.search import ContactSearch, SearchInput
 from core.dragon import Dragon
 from core.errors import checked_number, checked_size, question_about
 from core.kernels import Budget
@@ -64,9 +64,11 @@ def uncertain_tolerance(
 
     def touches(stray: float) -> bool:
         budget.afford(float(kernels.DIRECTIONS * min(dragon.uniform_from + 1, dragon.benches)))
-        search = ContactSearch(longer, spiral, 0.0, stray=stray, covered=partial(_longer_reach, shorter))
-        search.rings.between_shortest -= 2.0 * error
-        return not kernels.ring_clears(low, high, radius, 0.0, search.rings)
+        rings = ContactSearch(
+            SearchInput(longer, spiral, 0.0, stray=stray, covered=partial(_longer_reach, shorter))
+        ).rings
+        rings.between_shortest -= 2.0 * error
+        return not kernels.ring_clears(low, high, radius, 0.0, rings)
 
     most = 0.5 * float(shorter.chords.min())
     if not touches(most):

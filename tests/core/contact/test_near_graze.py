@@ -27,7 +27,7 @@ from core import (
 )
 from core.contact.decimal_shapes import DIGITS, exact_separation
 from core.contact.near_graze import LAST_BENCH, NEGLIGIBLE, ExactPair, narrow_bracket
-from core.contact.search import ContactSearch
+from core.contact.search import ContactSearch, SearchInput
 from core.kernels import Ended
 from core.kernels.results import Marched
 from tests.support.depth import thorough
@@ -52,7 +52,7 @@ def in_decimals():
 
 
 def pair_of(path, pair):
-    search = ContactSearch(DRAGON, path, 0.0)
+    search = ContactSearch(SearchInput(DRAGON, path, 0.0))
     search.resize(DRAGON.benches)
     return ExactPair(search, pair)
 
@@ -127,10 +127,10 @@ def test_with_passages_the_bracket_of_a_near_graze_is_as_narrow(margin, below):
 @pytest.fixture(scope="module")
 def grazing():
     """A search on a spiral a nanometre of pitch below the least one, and its contact: a graze 2 mm of travel long."""
-    search = ContactSearch(DRAGON, grazing_spiral(0.0, 1e-9), 0.0)
-    state, result, half = search.approach(0.0, 300.0, 1.0)
-    assert state == Ended.TOUCHED
-    assert half > 0.5 * BRACKET
+    search = ContactSearch(SearchInput(DRAGON, grazing_spiral(0.0, 1e-9), 0.0))
+    result = search.approach(0.0, 300.0, 1.0)
+    assert result.ended == Ended.TOUCHED
+    assert result.half > 0.5 * BRACKET
     return search, result
 
 
@@ -138,7 +138,7 @@ def grazing():
     "changed, half, narrow",
     [
         ({}, 0.4 * BRACKET, True),
-        ({"benches": (0, 18)}, 0.4 * BRACKET, False),
+        ({"pair": (0, 18)}, 0.4 * BRACKET, False),
         ({}, 1e-3, True),
         ({}, 1e-2, False),
     ],
@@ -152,8 +152,8 @@ def test_a_bracket_is_narrowed_where_one_pair_is_near_and_not_apart_again(grazin
 @pytest.mark.parametrize("margin, alone", [(1e-3, False), *thorough((0.0, True))])
 def test_where_another_pair_was_within_the_margin_earlier_the_bracket_stays(margin, alone):
     """Benches 0 and 11 pass each other 0.9 mm apart, 2.6 m of travel before benches 0 and 8 touch."""
-    search = ContactSearch(DRAGON, Spiral(), margin)
-    assert (narrow_bracket(search, Marched(409.0, 412.48, (0, 8)), BRACKET) is not None) is alone
+    search = ContactSearch(SearchInput(DRAGON, Spiral(), margin))
+    assert (narrow_bracket(search, Marched(Ended.TOUCHED, 409.0, 412.48, (0, 8)), BRACKET) is not None) is alone
 
 
 @pytest.mark.thorough
@@ -161,7 +161,7 @@ def test_benches_that_graze_between_two_instants_are_not_proven_apart_by_the_gap
     grazing,
 ):
     search, result = grazing
-    pair, (before, after) = ExactPair(search, result.benches), (result.proven - 0.01, result.proven + 0.01)
+    pair, (before, after) = ExactPair(search, result.pair), (result.proven - 0.01, result.proven + 0.01)
     assert min(pair.gap(Decimal(before)), pair.gap(Decimal(after))) > 0
     assert not pair.stays_apart(before, after)
     assert pair.stays_apart(before, result.proven - 0.005)

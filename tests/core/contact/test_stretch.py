@@ -1,7 +1,7 @@
 """A stretch of a path: a contact beyond its end; the least gap on it: test_clearance.py."""
 
 from core import Dragon, Spiral
-from core.contact.search import ContactSearch
+from core.contact.search import ContactSearch, SearchInput
 from core.contact.stretch import Stretch, overlap_beyond
 
 # The default dance first touches here [m of head travel].
@@ -9,7 +9,7 @@ CONTACT = 412.4738376822
 
 
 def test_a_certain_contact_is_found_beyond_the_place_where_a_search_gave_up():
-    search = ContactSearch(Dragon(30), Spiral(), 0.0)
+    search = ContactSearch(SearchInput(Dragon(30), Spiral(), 0.0))
     found = overlap_beyond(Stretch(search, (CONTACT - 5e-3, CONTACT + 1.0), 1.0))
     assert CONTACT <= found.touching <= CONTACT + 1.0
     assert overlap_beyond(Stretch(search, (400.0, 401.0), 1.0)) is None

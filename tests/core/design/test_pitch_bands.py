@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Spiral, kernels
-from core.contact.search import ContactSearch
+from core.contact.search import ContactSearch, SearchInput
 from core.design.pitch_bands import Bands
 from core.kernels import Ended
 from core.kernels.constants import MX, MY, SHIFT_CENTRE, SHIFT_CORNER, SHIFT_OMEGA, SHIFT_PULL, UX, UY
@@ -39,7 +39,7 @@ def random_bands(seed):
     turns = rng.uniform(5.0, 20.0)
     margin = rng.choice([0.0, 0.2 * dragon.chords[-1]])
     high = min(10 ** rng.uniform(0.1, 0.9) * (dragon.widths.max() + margin), 3.0 * dragon.chords.min())
-    bands = Bands(ContactSearch(dragon, Spiral(high, turns), margin), radius, turns, margin)
+    bands = Bands(ContactSearch(SearchInput(dragon, Spiral(high, turns), margin)), radius, turns, margin)
     return bands, high / (1.0 + 10 ** rng.uniform(-3.5, -0.5)), high
 
 
@@ -55,8 +55,8 @@ def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed):
     outer = inner * (1.0 + 1e-6)
     search.use(Spiral(math.tau * low, bands.start_turns), -1e3)  # no pair is within such a margin
     band = bands.march_to(high)
-    assert band.run(outer, inner, min(dragon.uniform_from + 1, dragon.benches), 0.0, 0.0, 9) is kernels.Ended.REACHED
-    assert band.result().steps == 1  # whose bounds are there still
+    result = band.run(outer, inner, min(dragon.uniform_from + 1, dragon.benches), 0.0, 0.0, 9)
+    assert (result.ended, result.steps) == (kernels.Ended.REACHED, 1)  # whose bounds are there still
     moved = int(np.count_nonzero(bands.shifts[:, SHIFT_CENTRE]))
     assert moved > 2
     sizes = lengths_and_widths(dragon)[:moved]
@@ -88,7 +88,7 @@ NO_BOUND = {4, 5, 9, 10, 13, 17, 21, 28, 31, 41, 42, 46, 50, 55}
 def test_nothing_touches_at_any_pitch_of_what_a_band_proves(seed):
     """At 9 x 30 samples between the two pitches, down to the radius that is reached, often not the circle."""
     bands, low, high = random_bands(seed)
-    state, result = bands.prove(low, high, 3.0 * bands.radius)
+    result = bands.prove(low, high, 3.0 * bands.radius)
     assert (result.proven == 3.0 * bands.radius) == (seed in NO_BOUND)
     if seed in NO_BOUND:
         return
@@ -97,7 +97,7 @@ def test_nothing_touches_at_any_pitch_of_what_a_band_proves(seed):
     for growth in np.linspace(low, high, 9) / (math.tau):
         for radius in np.linspace(result.proven, outer, 30):
             assert chain(bands.search, growth, radius, benches)[0] > bands.margin
-    if state is Ended.TOUCHED:
+    if result.ended is Ended.TOUCHED:
         growth = low / (math.tau)
         gap = chain(bands.search, growth, result.touching, benches)[0]
         assert gap <= bands.margin

@@ -22,21 +22,21 @@ GAP = 1e-9
 def test_where_a_way_ends_the_pair_touches_and_with_a_wider_pitch_it_does_not():
     ways = Ways(Dragon(14), RADIUS, TURNS, 0.0, 0.0, None)
     pitch = 0.44
-    state, result = ways.march(pitch, CONTACT_WIDTH)
-    assert state is Ended.TOUCHED
+    result = ways.march(pitch, CONTACT_WIDTH)
+    assert result.ended is Ended.TOUCHED
     dance = SlowDance.of(Dragon(14), Spiral(pitch, TURNS))
-    assert_near(dance.pair_gap(result.touching, result.benches), 0.0, GAP)
+    assert_near(dance.pair_gap(result.touching, result.pair), 0.0, GAP)
     radius = dance.head(result.touching) * dance.growth
-    assert ways.still_touches(pitch, radius - 1e-6, *result.benches)
-    assert not ways.still_touches(1.1 * pitch, radius, *result.benches)
+    assert ways.still_touches(pitch, radius - 1e-6, *result.pair)
+    assert not ways.still_touches(1.1 * pitch, radius, *result.pair)
     later = Ways(Dragon(14), RADIUS, 0.999 * radius / pitch, 0.0, 0.0, None)
-    assert not later.still_touches(pitch, radius - 1e-6, *result.benches)  # its way begins further in
+    assert not later.still_touches(pitch, radius - 1e-6, *result.pair)  # its way begins further in
 
 
 @pytest.mark.parametrize("more, ended", [(-1e-6, Ended.BENCH_FOLDED), (1e-6, Ended.REACHED)])
 def test_a_way_folds_below_the_pitch_at_which_the_head_folds_on_the_circle(more, ended):
     ways = Ways(FOLDING, 0.85, 5.0, 0.0, 0.0, None)
-    assert ways.march(FOLDS_AT + more)[0] is ended
+    assert ways.march(FOLDS_AT + more).ended is ended
     assert ways.is_clear(FOLDS_AT + more) is (more > 0.0)
 
 

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from core import Dragon, Spiral
-from core.contact.search import ContactSearch
+from core.contact.search import ContactSearch, SearchInput
 from core.design.pitch_bands import Bands
 from core.kernels import Ended, gap_at
 
@@ -22,13 +22,13 @@ WORK = 1e7
 )
 def test_a_band_reaches_the_circle_or_touches_or_has_not_begun(pitch, leaders, work, ended):
     """Without work, and with more leaders than rows, nothing is proven."""
-    search = ContactSearch(Dragon(60), Spiral(pitch), 0.0)
+    search = ContactSearch(SearchInput(Dragon(60), Spiral(pitch), 0.0))
     band = Bands(search, CIRCLE, 16.0, 0.0).march_to((pitch + 0.001) / (2.0 * math.pi))
-    assert band.run(6.0, CIRCLE, leaders, 1e-12, 1e-9, work) is ended
-    result = band.result()
+    result = band.run(6.0, CIRCLE, leaders, 1e-12, 1e-9, work)
+    assert result.ended is ended
     if ended is Ended.TOUCHED:
         assert CIRCLE <= result.touching <= result.proven <= 6.0
         travel = search.travel_at(result.touching / search.growth)
-        assert gap_at(search.scene, search.place - travel, *result.benches, search.placed) <= 0.0
+        assert gap_at(search.scene, search.place - travel, *result.pair, search.placed) <= 0.0
     elif ended is not Ended.CAPACITY:
-        assert result[:2] == (CIRCLE if ended is Ended.REACHED else 6.0, None)
+        assert result[1:3] == (CIRCLE if ended is Ended.REACHED else 6.0, None)

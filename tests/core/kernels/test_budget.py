@@ -5,7 +5,7 @@ import pickle
 import pytest
 
 from core import Dragon, Spiral
-from core.contact.search import ContactSearch
+from core.contact.search import ContactSearch, SearchInput
 from core.kernels import Budget, Halted
 
 
@@ -46,7 +46,7 @@ def test_a_budget_keeps_its_state_in_another_process():
 
 def test_a_scene_has_the_halt_of_its_search_whatever_path_that_takes():
     budget = Budget(5.0)
-    search = ContactSearch(Dragon(5), Spiral(), 0.0, budget=budget)
+    search = ContactSearch(SearchInput(Dragon(5), Spiral(), 0.0), budget=budget)
     search.resize(4)
     search.use(Spiral(0.7), 0.1)
     search.scene.budget.left -= 2.0

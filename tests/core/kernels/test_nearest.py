@@ -3,7 +3,7 @@
 import math
 
 from core import Arc, Dance, Dragon, Line, Route, Spiral, clearance_profile, first_contact
-from core.contact.search import ContactSearch
+from core.contact.search import ContactSearch, SearchInput
 from core.kernels import Ended, March
 from tests.support.near import assert_near
 
@@ -13,15 +13,15 @@ CONTACT = 412.4738376822
 
 def test_with_too_few_rows_for_the_benches_in_reach_a_march_ends_at_capacity_and_misses_nothing():
     """The rings around the head hold some 130 benches: as few rows, and one would be missing from a pair."""
-    search = ContactSearch(Dragon(600), Spiral(), 0.0)
+    search = ContactSearch(SearchInput(Dragon(600), Spiral(), 0.0))
     ended = set()
     for rows in (3, 9, 60, 120, 160, 300):
         search.resize(rows)
         march = March(search.interval, search.probe, search.opening)
-        ended.add(march.run(380.0, 420.0, 2, True, 1e-10, False, 1e-12, 1e7))
-        result = march.result()
+        result = march.run(380.0, 420.0, 2, True, 1e-10, False, 1e-12, 1e7)
+        ended.add(result.ended)
         assert result.proven < CONTACT
-        assert result.touching is None or result.benches == (0, 8)
+        assert result.touching is None or result.pair == (0, 8)
     assert ended == {Ended.CAPACITY, Ended.TOUCHED}
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from core import Dance, Dragon, EndReason, Outcome, Spiral, Turn, first_contact, trajectory
-from core.contact.search import ContactSearch
+from core.contact.search import ContactSearch, SearchInput
 from core.kernels.constants import THETA
 from core.sampling import bisect
 from tests.support.depth import some, thorough
@@ -24,7 +24,7 @@ def test_a_pair_of_equal_benches_repeats_in_place_what_the_first_of_them_met(pat
     dragon = Dragon.of(lengths, np.full(40, 0.3), np.full(40, 0.275))
     assert dragon.uniform_from == first
     rng = np.random.default_rng(first)
-    search = ContactSearch(dragon, path, 0.0)
+    search = ContactSearch(SearchInput(dragon, path, 0.0))
 
     def place(handle, time):
         search.place_leaders(time, 40)

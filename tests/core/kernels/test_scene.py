@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from core import Dragon, Spiral
-from core.contact.search import ContactSearch
-from core.design.ways import SearchBetween
-from core.kernels import Budget, Rings, Scene, spiral_curve
+from core.contact.search import ContactSearch, SearchInput
+from core.kernels import Rings, Scene, spiral_curve
 from core.kernels.constants import (
     ERROR,
     FRAME_COLUMNS,
@@ -25,12 +24,12 @@ def test_a_scene_has_room_for_as_many_benches_as_rows(benches, edges, room):
 
 
 def test_an_interval_whose_chain_folds_has_no_bounds():
-    assert not ContactSearch(Dragon(5), Spiral(), 0.0).interval.lay_out(0.1, 0.01, 5)
+    assert not ContactSearch(SearchInput(Dragon(5), Spiral(), 0.0)).interval.lay_out(0.1, 0.01, 5)
 
 
 def test_copies_move_as_the_dragon_does_with_larger_errors():
     """Where they stand: tests/core/design/test_pitch_search.py."""
-    search = SearchBetween(Dragon(12), Spiral(), 3, 0.0, work=1e7, budget=Budget(), stray=0.0)
+    search = ContactSearch(SearchInput(Dragon(12), Spiral(), 0.0, copies=3))
     assert search.interval.lay_out(search.place - 20.0, 0.05, 12)
     placed, motion = (rows.reshape(3, 13, -1) for rows in (np.asarray(search.placed), np.asarray(search.motion)))
     for error in (ERROR, SWAY):
