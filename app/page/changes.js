@@ -7,6 +7,16 @@ import { roundedRoute } from "./walk.js";
 /** The edited item of a drawing: null for the path, else the number of a thing. */
 export const pointsOf = (drawing, item) => (item === null ? drawing.points : (drawing.things[item]?.points ?? []));
 
+/** True if two points are one place, which the laps of a ring pass again and again. */
+const isSame = (a, b) => a?.[0] === b?.[0] && a?.[1] === b?.[1];
+/** Numbers of the points of an item at the place of point k: on a path all its laps, elsewhere this one. */
+export const lapsOf = (drawing, item, k) => (item === null ? drawing.points.flatMap((point, at) => (isSame(point, drawing.points[k]) ? [at] : [])) : [k]);
+/** Numbers of the points of an item, each place of a path once. */
+export function placesOf(drawing, item) {
+  const points = pointsOf(drawing, item);
+  return new Set(item === null ? new Map([...points.keys()].reverse().map((k) => [String(points[k]), k])).values() : points.keys());
+}
+
 /** The drawing with other points of one item; gates stay on the border. */
 export function withPoints(drawing, item, points) {
   if (item === null) return { ...drawing, points, path: null };
@@ -32,13 +42,23 @@ export function withThing(drawing, item, changes) {
   return { ...drawing, things: drawing.things.map((thing, k) => (k === item ? { ...thing, ...changes } : thing)) };
 }
 
-/** The drawing with a new point before point k of an item; both parts of a straight leg stay straight. */
+/** The drawing with a new point before point k of an item, and on the same leg of the other laps. */
 export function inserted(drawing, item, k, point) {
+  const isLeg = (at) => at === k || (item === null && at > 0 && isSame(drawing.points[at - 1], drawing.points[k - 1]) && isSame(drawing.points[at], drawing.points[k]));
+  const legs = [...pointsOf(drawing, item).keys(), pointsOf(drawing, item).length].filter(isLeg);
+  return legs.reduceRight((all, leg) => divided(all, item, leg, point), drawing);
+}
+
+/** The drawing with a new point before point k of an item; both parts of a straight leg stay straight. */
+function divided(drawing, item, k, point) {
   const changed = withPoints(drawing, item, pointsOf(drawing, item).toSpliced(k, 0, place(point)));
   if (item !== null) return changed;
   const straight = drawing.straight.flatMap((leg) => (leg < k - 1 ? [leg] : leg === k - 1 && k < changed.points.length - 1 ? [leg, leg + 1] : [leg + (leg >= k - 1)]));
   return { ...changed, straight };
 }
+
+/** The drawing without a place of an item, which the path may pass several times. */
+export const left = (drawing, item, k) => lapsOf(drawing, item, k).reduceRight((all, lap) => removed(all, item, lap), drawing);
 
 /** The drawing without point k of an item; a thing without points is removed. */
 export function removed(drawing, item, k) {
@@ -50,9 +70,12 @@ export function removed(drawing, item, k) {
   return { ...drawing, points, straight: legs, path: null };
 }
 
+/** The drawing with point k of an item, and all laps through it, at another place. */
 export function moved(drawing, item, k, point) {
   const ring = drawing.things[item]?.kind === "gate" ? yardOf(drawing) : [];
-  return withPoints(drawing, item, pointsOf(drawing, item).with(k, ring.length ? onBorder(ring, point).point : place(point)));
+  const now = ring.length ? onBorder(ring, point).point : place(point);
+  const laps = lapsOf(drawing, item, k);
+  return withPoints(drawing, item, pointsOf(drawing, item).map((one, at) => (laps.includes(at) ? now : one)));
 }
 
 /** The drawing with a leg made straight, or curved again. */

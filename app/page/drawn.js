@@ -2,6 +2,7 @@
 
 import { Beside } from "./beside.js";
 import { Change } from "./change.js";
+import { placesOf } from "./changes.js";
 import { EMPTY, walkOf, yardOf } from "./drawing.js";
 import { Editor } from "./edit.js";
 import { $, $$, hide, make, textButton } from "./elements.js";
@@ -10,7 +11,7 @@ import { Files } from "./files.js";
 import { stepsOf } from "./history.js";
 import { Judgement } from "./judgement.js";
 import { addKits } from "./kits.js";
-import { knotsOf } from "./knots.js";
+import { cornersOf, knotsOf } from "./knots.js";
 import { Menu } from "./menu.js";
 import { Photo } from "./photo.js";
 import { announceStep } from "./overlays.js";
@@ -91,19 +92,20 @@ export class Drawn {
 
   /** Make points of a figure: as few as can be danced, by the service's verdict. */
   async #free() {
-    const { course } = this.questions;
     const drawing = this.state.get("drawing");
-    if (!course || course.drawing !== drawing) return;
+    const { questions } = this;
+    const ask = (path, shown, more) => this.service.ask("free", path, { body: { ...questions.checkBody({ ...questions.drawn(), drawing: shown }), ...more } }).catch(() => null);
+    const corners = cornersOf(drawing.path);
+    const course = corners || questions.course?.drawing === drawing ? questions.course : await ask("course", drawing, {});
     let freed = drawing;
-    for (const turn of TURNS) {
-      freed = { ...drawing, ...knotsOf(course, ...turn), path: null, start: null };
-      const body = this.questions.checkBody({ ...this.questions.drawn(), drawing: freed });
-      const report = await this.service.ask("free", "check", { body: { ...body, cross_check: "none", details: false } }).catch(() => null);
+    for (const knots of [corners, ...TURNS.map((turn) => course && knotsOf(course, ...turn))].filter(Boolean)) {
+      freed = { ...drawing, ...knots, path: null, start: null };
+      const report = await ask("check", freed, { cross_check: "none", details: false });
       if (this.state.get("drawing") !== drawing) return;
       if (report?.verdict === "passes") break;
     }
     this.steps.take(freed);
-    announceStep(() => say("The figure is now a path of {count} points.", { count: freed.points.length }));
+    announceStep(() => say("The figure is now a path of {count} points.", { count: placesOf(freed, null).size }));
   }
 
   /** After a change of the photo: all of it is in view, unless a person has moved the picture. */

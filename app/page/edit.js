@@ -1,6 +1,6 @@
 /** Drawing on the picture: the points of one item are buttons to drag or to move by keys, and taps add points. */
 
-import { aligned, copied, figured, inserted, isFigure, moved, pointsOf, removed, shiftedAll, turned, withPoints, withThing, withoutThings } from "./changes.js";
+import { aligned, copied, figured, inserted, isFigure, left, moved, placesOf, pointsOf, shiftedAll, turned, withPoints, withThing, withoutThings } from "./changes.js";
 import { LANE_RADIUS, THINGS, freeName, isLine, place, yardOf } from "./drawing.js";
 import { $, $$, make, onClick } from "./elements.js";
 import { announce } from "./overlays.js";
@@ -325,7 +325,9 @@ export class Editor {
       grip.hidden = this.hasFigure ? false : kind === "move" || !this.whole || (kind === "turn" ? points.length < 2 : points.length < 2 && this.thing.radius === undefined);
       grip.setAttribute("aria-label", say(GRIPS[kind]));
     }
+    const places = placesOf(this.#drawing, this.item);
     points.forEach(([x, y], k) => {
+      this.#knots[k].hidden = !places.has(k);
       const label = say("Point {k} of {count}, x {x} m, y {y} m", { k: k + 1, count: points.length, x, y });
       if (this.#knots[k].getAttribute("aria-label") !== label) this.#knots[k].setAttribute("aria-label", label);
     });
@@ -564,7 +566,7 @@ export class Editor {
   }
 
   removePoint(k) {
-    this.steps.take(removed(this.#drawing, this.item, k));
+    this.steps.take(left(this.#drawing, this.item, k));
     this.#knots[Math.min(k, this.#knots.length - 1)]?.focus({ preventScroll: true });
   }
 

@@ -1,12 +1,37 @@
-/** Points through which a curve follows a given path, so that a path of lines and arcs can be edited like a drawn one. */
+/** Points that make a given path, so that a path of lines and arcs can be edited like a drawn one. */
 
 /** Turn of the path between two samples at which it still is straight [rad], and the shortest straight leg [m]. */
 const [STRAIGHT, LEG] = [1e-6, 2];
 /** Turn [rad] and length [m] of the curve between two points. */
 const [TURN, LENGTH] = [Math.PI / 5, 15];
 const DECIMALS = 2;
+/** Turn of one corner at most [rad], with room for rounding; distance at which two of them are the same [m]. */
+const [CORNER, SAME] = [Math.PI / 2 + 1e-3, 0.05];
 
+const rounded = (number) => Number(number.toFixed(DECIMALS));
 const wrapped = (angle) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
+
+/** Corners of the tangents around an arc, whose rounding is the arc. */
+function around({ centre, radius, start_angle: first, sweep }) {
+  const count = Math.ceil(Math.abs(sweep) / CORNER);
+  const half = sweep / count / 2;
+  return Array.from({ length: count }, (_, k) => polar(centre, first + (2 * k + 1) * half, radius / Math.cos(half)));
+}
+
+const polar = ([x, y], angle, radius) => [x + radius * Math.cos(angle), y + radius * Math.sin(angle)];
+
+/**
+ * {points, straight, radius} of straight legs whose rounded corners are the arcs of a path: four of them make a ring, and
+ * its laps share them. null for a path that has other pieces than lines and arcs
+ */
+export function cornersOf({ pieces }) {
+  if (pieces.some(({ kind }) => kind !== "line" && kind !== "arc")) return null;
+  const endOf = (piece, isLast) => (piece.kind === "line" ? piece[isLast ? "end" : "start"] : polar(piece.centre, piece.start_angle + (isLast ? piece.sweep : 0), piece.radius));
+  const all = [endOf(pieces[0], false), ...pieces.flatMap((piece) => (piece.kind === "arc" ? around(piece) : [])), endOf(pieces.at(-1), true)];
+  const points = [];
+  for (const point of all) points.push(points.find(([x, y]) => Math.hypot(x - point[0], y - point[1]) < SAME) ?? point.map(rounded));
+  return { points, straight: points.slice(1).map((_, k) => k), radius: rounded(Math.max(...pieces.map(({ radius = 0 }) => radius))) };
+}
 
 /** {points, straight} of a path sampled at equal distances, as by /course: {x, y} [m]. turn, length: of the curve between two points at most [rad], [m] */
 export function knotsOf({ x, y }, turn = TURN, length = LENGTH) {
@@ -51,5 +76,5 @@ export function knotsOf({ x, y }, turn = TURN, length = LENGTH) {
     });
     if (samples.at(-1) !== k) samples.push(k);
   }
-  return { points: samples.map((k) => [Number(x[k].toFixed(DECIMALS)), Number(y[k].toFixed(DECIMALS))]), straight };
+  return { points: samples.map((k) => [x[k], y[k]].map(rounded)), straight };
 }

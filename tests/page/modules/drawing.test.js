@@ -110,6 +110,12 @@ test("points are put in, taken away, moved and bent", () => {
   assert.deepEqual([0, 1, 2, 3, 4, 5].map((k) => changes.inserted(bend, null, k, [1, 1]).straight), [[2, 4], [2, 4], [1, 2, 4], [1, 4], [1, 3, 4], [1, 3]]);
   assert.deepEqual([0, 1, 2, 3, 4].map((k) => changes.removed(bend, null, k).straight), [[0, 2], [2], [2], [1], [1]]);
   assert.deepEqual(changes.removed({ ...street, straight: [1] }, null, 1).straight, []);
+  const laps = { ...EMPTY, points: [[0, 0], [9, 0], [9, 9], [0, 0], [9, 0], [9, 9]], straight: [0, 3] };
+  assert.deepEqual(changes.placesOf(laps, null), new Set([0, 1, 2]));
+  assert.deepEqual(changes.moved(laps, null, 4, [8, 1]).points, [[0, 0], [8, 1], [9, 9], [0, 0], [8, 1], [9, 9]]);
+  assert.deepEqual(changes.left(laps, null, 1).points, [[0, 0], [9, 9], [0, 0], [9, 9]]);
+  const divided = changes.inserted(laps, null, 1, [5, 0]);
+  assert.deepEqual([divided.points.length, divided.points[5], divided.straight], [8, [5, 0], [0, 1, 4, 5]]);
   assert.deepEqual(changes.moved(street, null, 2, [20, 7]).points[2], [20, 7]);
   assert.deepEqual(changes.bent(street, 0).straight, [1]);
   assert.deepEqual(changes.bent(changes.bent(street, 0), 0).straight, [0, 1]);
