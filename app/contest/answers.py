@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from app.contest.solved import Solved, Turned
@@ -24,13 +25,18 @@ class Result:
     how: str
 
 
-def answers(solved: Solved) -> list[Result]:
-    """The numbers of the five answers, in the order of the questions."""
-    results = [*_inwards(solved), *_contact(solved), _pitch(solved.pitch)]
-    if solved.turned:
+def answers(solved: Solved, question: int | None = None) -> list[Result]:
+    """The numbers of the answers, in the order of the questions. question: the only one, None for all five"""
+    numbers: dict[int, Callable[[], list[Result]]] = {
+        1: lambda: _inwards(solved),
+        2: lambda: _contact(solved),
+        3: lambda: [_pitch(solved.pitch)],
+    }
+    if turned := solved.turned:
         limit = solved.request.speed_limit
-        results += [*_turn(solved.turned), *_times(solved.turned, limit), _speed(solved.turned, limit)]
-    return results
+        numbers[4] = lambda: [*_turn(turned), *_times(turned, limit)]
+        numbers[5] = lambda: [_speed(turned, limit)]
+    return [result for number, of in numbers.items() if question in (None, number) for result in of()]
 
 
 def _inwards(solved: Solved) -> list[Result]:

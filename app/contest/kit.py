@@ -10,7 +10,7 @@ from __future__ import annotations
 import io
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Self
@@ -27,14 +27,13 @@ from app.extras import MissingPackage, require
 from app.files.disk import write_whole
 from app.files.lock import FolderLock
 from app.files.tables import XLSX_DECIMALS, instant_sheet, trajectory_sheets
-from app.files.workbooks import workbook
+from app.files.workbooks import Worksheet, workbook
 from app.wire.question import Terms
 from core import InvalidValue
 from core.language import say
 
 FIGURES, TABLES = "figures", "tables"
-# The questions about the turn, and what is handed in for each question: workbooks, tables, and figures.
-OF_TURN = (4, 5)
+# What is handed in for each question: workbooks, tables, and figures.
 PARTS = {
     1: ("result1.xlsx", "positions", "speeds", "snapshots"),
     2: ("result2.xlsx", "contact", "clearance"),
@@ -82,10 +81,8 @@ class Kit:
         cls, request: ContestRequest, terms: Terms, progress: films.StepProgress, question: int | None = None
     ) -> Self:
         """A kit that has its answers. question: the only one that it is about, None for all; raises: as solve"""
-        turns = question is None or question >= min(OF_TURN)
-        solved = solve(request, terms, lambda share: progress(say("answers"), share), turns=turns)
-        results = [one for one in answers(solved) if question in (None, one.question)]
-        return cls(solved, results, solved.why_no_turn, question)
+        solved = solve(request, terms, lambda share: progress(say("answers"), share), question)
+        return cls(solved, answers(solved, question), solved.why_no_turn, question)
 
 
 def write_kit(
@@ -133,8 +130,10 @@ def _take_over(folder: Path, names: list[str]) -> None:
 def files_of(kit: Kit, shot: films.Wanted, progress: films.StepProgress) -> Iterator[films.NamedFile]:
     """Name and bytes of each file as it is made, the report last. kit: receives the reason why there are no pictures"""
     solved, parts = kit.solved, PARTS.get(kit.question or 0)
-    tables = [table for table in paper_tables(solved) if parts is None or table.name in parts]
-    yield from ((name, data) for name, data in _workbooks(solved) if parts is None or name in parts)
+    tables = [table for table in paper_tables(solved, kit.question) if parts is None or table.name in parts]
+    for name, sheets in _workbooks(solved).items():
+        if parts is None or name in parts:
+            yield name, workbook(sheets(), XLSX_DECIMALS)
     yield "answers.json", orjson.dumps(kit.results, option=orjson.OPT_INDENT_2) + b"\n"
     for table in tables:
         for ending, text in (("csv", table.to_csv()), ("md", table.to_markdown()), ("tex", table.to_latex())):
@@ -188,8 +187,12 @@ def zip_of(
     return sink.getvalue()
 
 
-def _workbooks(solved: Solved) -> Iterator[films.NamedFile]:
-    yield "result1.xlsx", workbook(trajectory_sheets(solved.inwards), XLSX_DECIMALS)
-    yield "result2.xlsx", workbook([instant_sheet(solved.meeting)], XLSX_DECIMALS)
-    if solved.turned:
-        yield "result4.xlsx", workbook(trajectory_sheets(solved.turned.around), XLSX_DECIMALS)
+def _workbooks(solved: Solved) -> dict[str, Callable[[], list[Worksheet]]]:
+    """What makes the sheets of each workbook, by its name."""
+    books: dict[str, Callable[[], list[Worksheet]]] = {
+        "result1.xlsx": lambda: trajectory_sheets(solved.inwards),
+        "result2.xlsx": lambda: [instant_sheet(solved.meeting)],
+    }
+    if turned := solved.turned:
+        books["result4.xlsx"] = lambda: trajectory_sheets(turned.around)
+    return books

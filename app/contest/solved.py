@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from pydantic import Field
@@ -19,6 +20,9 @@ from core.values import Floats, Progress
 TABLE_STEPS, TURN_STEPS = 5, 4
 # Ratio of equal arcs [1], which makes the turn shortest: both arcs are as tight as the benches allow.
 EVEN = 1.0
+# The question for which each answer is computed; the last one takes longest.
+OF_SPIRAL = {"inwards": 1, "contact": 2, "pitch": 3}
+OF_TURN = {"fastest": 5, "around": 4, "shortest": 4, "times": 4, "even": 4}
 
 
 class ContestRequest(DanceQuery):
@@ -48,42 +52,102 @@ class ContestRequest(DanceQuery):
 
 @dataclass(frozen=True)
 class Turned:
-    """Inputs and answers of questions 4 and 5.
+    """Inputs and answers of questions 4 and 5, each answer computed when it is first read.
 
-    dance: along the turn; shortest: with the ratio asked for; even: with equal arcs, None where it cannot be danced
-    times: of the turn of question 4, of the shortest and of the quickest one with its ratio, at the speed limit
-    around: every second of question 4
+    dance: along the turn
     """
 
+    request: ContestRequest
     path: Turn
     dance: Dance
-    shortest: core.ShortestTurn
-    even: core.ShortestTurn | None
-    times: list[core.TurnTime]
-    around: Trajectory
-    fastest: core.MaximumHeadSpeed
+    budget: Budget
+
+    @cached_property
+    def shortest(self) -> core.ShortestTurn:
+        """The shortest turn with the ratio asked for. raises: InvalidValue if there is none"""
+        return self._shortest(self.request.ratio)
+
+    @cached_property
+    def even(self) -> core.ShortestTurn | None:
+        """The shortest one with equal arcs, None where it cannot be danced."""
+        with suppress(InvalidValue):  # Equal arcs may be too tight even with the entry on the circle.
+            return self._shortest(EVEN)
+        return None
+
+    @cached_property
+    def times(self) -> list[core.TurnTime]:
+        """Of the turn of question 4, of the shortest and of the quickest one with its ratio, at the speed limit."""
+        limit, danced = self.request.speed_limit, list[core.Turn | core.ClothoidTurn]([self.path, self.shortest.turn])
+        with suppress(InvalidValue):  # no turn that was tried can be danced
+            quickest = core.quickest_turn(
+                *self._inside, self.request.ratio, start_turns=self.request.start_turns, speed_limit=limit,
+                budget=self.budget,
+            )  # fmt: skip
+            danced.append(quickest.turn)
+        return [core.turn_time(self.dance.dragon, turn, limit, budget=self.budget) for turn in danced]
+
+    @cached_property
+    def around(self) -> Trajectory:
+        """Every second of question 4."""
+        return core.trajectory(self.dance, seconds(-self.request.span, self.request.span), budget=self.budget)
+
+    @cached_property
+    def fastest(self) -> core.MaximumHeadSpeed:
+        return core.maximum_head_speed(self.dance, self.request.speed_limit, budget=self.budget)
+
+    @property
+    def _inside(self) -> tuple[Dragon, float, float]:
+        return self.dance.dragon, self.request.turn_pitch, self.request.turning_radius
+
+    def _shortest(self, ratio: float) -> core.ShortestTurn:
+        return core.shortest_turn(*self._inside, ratio, start_turns=self.request.start_turns, budget=self.budget)
 
 
-@dataclass(frozen=True)
+@dataclass
 class Solved:
-    """Inputs and answers of the five questions, in metres and seconds.
+    """Inputs and answers of the five questions, in metres and seconds, each answer computed when it is first read.
 
     spiral: the dance of questions 1 to 3
-    inwards: every second of question 1; meeting: the instant `met_at` of first contact; contact: the search's answer
     turned: None where no turn can be danced, with the reason why_no_turn
     budget: of all that is computed from these answers
     """
 
     request: ContestRequest
     spiral: Dance
-    inwards: Trajectory
-    contact: core.FirstContact
-    met_at: float
-    meeting: Trajectory
-    pitch: core.MinimumPitch
     turned: Turned | None
     budget: Budget
     why_no_turn: str = ""
+
+    @cached_property
+    def inwards(self) -> Trajectory:
+        """Every second of question 1."""
+        stop = self.spiral.span(0.0, self.request.stop)[1]
+        return core.trajectory(self.spiral, seconds(0.0, stop), budget=self.budget)
+
+    @cached_property
+    def contact(self) -> core.FirstContact:
+        """The answer of the search of question 2."""
+        return core.first_contact(self.spiral, budget=self.budget)
+
+    @property
+    def met_at(self) -> float:
+        """Time of first contact; else the last instant proven clear, or just before the end of the run [s]."""
+        contact = self.contact
+        if contact.time is not None:
+            return contact.time
+        if contact.outcome is Outcome.UNDECIDED and contact.time_bracket:
+            return contact.time_bracket[0]
+        assert contact.end is not None
+        return contact.end.time - 1e-6
+
+    @cached_property
+    def meeting(self) -> Trajectory:
+        """The dance at the instant `met_at`."""
+        return core.trajectory(self.spiral, [self.met_at], budget=self.budget)
+
+    @cached_property
+    def pitch(self) -> core.MinimumPitch:
+        return self.request.least_pitch(self.dragon, self.budget)
 
     @property
     def dragon(self) -> Dragon:
@@ -115,68 +179,31 @@ class Solved:
         return np.linspace(-self.request.span, self.request.span, TURN_STEPS + 1)
 
 
-def solve(request: ContestRequest, terms: Terms, progress: Progress, *, turns: bool = True) -> Solved:
-    """All five answers. turns: False leaves out questions 4 and 5; raises: InvalidValue, OutsideRun, TooMuchWork"""
+def solve(request: ContestRequest, terms: Terms, progress: Progress, question: int | None = None) -> Solved:
+    """The answers, of which those to a question are ready. question: None for all five
+
+    raises: InvalidValue, OutsideRun, TooMuchWork
+    """
     dragon = request.to_dragon(terms.settings.checked_benches_max)
     spiral = Dance(dragon, request.to_path(), request.head_speed)
-    inwards = core.trajectory(spiral, seconds(0.0, spiral.span(0.0, request.stop)[1]), budget=terms.budget)
-    progress(0.1)
-    contact = core.first_contact(spiral, budget=terms.budget)
-    met_at = instant_of(contact)
-    progress(0.2)
-    least = request.least_pitch(dragon, terms.budget)
-    progress(0.4)
-    turned, why = None, ""
-    try:
-        turned = _turned(request, dragon, terms) if turns else None
-    except InvalidValue as error:
-        why = error.message
-    progress(1.0)
-    meeting = core.trajectory(spiral, [met_at], budget=terms.budget)
-    return Solved(
-        request,
-        spiral,
-        inwards=inwards,
-        contact=contact,
-        met_at=met_at,
-        meeting=meeting,
-        pitch=least,
-        turned=turned,
-        budget=terms.budget,
-        why_no_turn=why,
+    on_spiral, on_turn = (
+        [name for name, number in names.items() if question in (None, number)] for names in (OF_SPIRAL, OF_TURN)
     )
-
-
-def _turned(request: ContestRequest, dragon: Dragon, terms: Terms) -> Turned:
-    """Questions 4 and 5. raises: InvalidValue if the turn cannot be danced"""
-    path = request.to_turn()
-    dance = Dance(dragon, path, request.head_speed)
-    inside, turns = (dragon, request.turn_pitch, request.turning_radius), request.start_turns
-    shortest = core.shortest_turn(*inside, request.ratio, start_turns=turns, budget=terms.budget)
-    even = None
-    with suppress(InvalidValue):  # Equal arcs may be too tight even with the entry on the circle.
-        even = core.shortest_turn(*inside, EVEN, start_turns=turns, budget=terms.budget)
-    around = core.trajectory(dance, seconds(-request.span, request.span), budget=terms.budget)
-    fastest = core.maximum_head_speed(dance, request.speed_limit, budget=terms.budget)
-    danced: list[core.Turn | core.ClothoidTurn] = [path, shortest.turn]
-    with suppress(InvalidValue):  # no turn that was tried can be danced
-        limit = request.speed_limit
-        quickest = core.quickest_turn(*inside, request.ratio, start_turns=turns, speed_limit=limit, budget=terms.budget)
-        danced.append(quickest.turn)
-    times = [core.turn_time(dragon, turn, request.speed_limit, budget=terms.budget) for turn in danced]
-    return Turned(path, dance, shortest=shortest, even=even, times=times, around=around, fastest=fastest)
+    solved = Solved(request, spiral, None, terms.budget)
+    for name in on_spiral:
+        getattr(solved, name)
+    try:
+        path = request.to_turn()
+        solved.turned = Turned(request, path, Dance(dragon, path, request.head_speed), terms.budget)
+        for k, name in enumerate(on_turn):
+            progress(k / len(on_turn))
+            getattr(solved.turned, name)
+    except InvalidValue as error:
+        solved.turned, solved.why_no_turn = None, error.message
+    progress(1.0)
+    return solved
 
 
 def seconds(start: float, stop: float) -> Floats:
     """start, start + 1 s, ... up to stop [s]."""
     return start + np.arange(int(np.floor(stop - start + 1e-9)) + 1, dtype=np.float64)
-
-
-def instant_of(contact: core.FirstContact) -> float:
-    """Time of first contact; else the last instant proven clear, or an instant just before the end of the run [s]."""
-    if contact.time is not None:
-        return contact.time
-    if contact.outcome is Outcome.UNDECIDED and contact.time_bracket:
-        return contact.time_bracket[0]
-    assert contact.end is not None
-    return contact.end.time - 1e-6

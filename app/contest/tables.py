@@ -71,12 +71,18 @@ def in_markdown(lines: Iterable[Sequence[str]]) -> str:
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
-def paper_tables(solved: Solved) -> list[KitTable]:
-    """Tables of questions 1 and 4 at the instants that the contest requires, and of question 2 at first contact."""
-    question_1, question_4 = ("", say("Question 1")), ("turn-", say("Question 4"))
-    tables = [*_over_time(solved, solved.spiral, solved.table_times, question_1), _at_contact(solved)]
-    if solved.turned:
-        tables += _over_time(solved, solved.turned.dance, solved.turn_times, question_4)
+def paper_tables(solved: Solved, question: int | None = None) -> list[KitTable]:
+    """Tables of questions 1 and 4 at the instants that the contest requires, and of question 2 at first contact.
+
+    question: the only one, None for all
+    """
+    tables: list[KitTable] = []
+    if question in (None, 1):
+        tables += _over_time(solved, solved.spiral, solved.table_times, ("", say("Question 1")))
+    if question in (None, 2):
+        tables.append(_at_contact(solved))
+    if question in (None, 4) and solved.turned:
+        tables += _over_time(solved, solved.turned.dance, solved.turn_times, ("turn-", say("Question 4")))
     return tables
 
 

@@ -40,6 +40,12 @@ OVERLAP_MOST = 0.1
 DIGITS_LEAST = 2
 # Most decimals of a rounded number.
 DECIMALS_MOST = 4
+# Other units in which people may have an answer, by its unit: names and their numbers in one of it.
+OTHER_UNITS = {
+    "s": {"min": 1 / 60, "ms": 1e3},
+    "m": {"cm": 100.0, "mm": 1e3, "km": 1e-3},
+    "m/s": {"km/h": 3.6, "cm/s": 100.0, "mm/s": 1e3},
+}
 # Length that every turn exceeds whose first arc has twice the radius of the second [m], as core.shortest_turn() proves.
 TURN_OF_TWO_LEAST = 11.7991513
 
@@ -101,11 +107,22 @@ def _graded(name: str, value: float, half_unit: float) -> Graded:
 
 def _wrong(name: str, value: float, half_unit: float) -> Graded:
     """The grade of a wrong number."""
+    if in_other := _in_other_unit(name, value, half_unit):
+        return Graded(Rating.WRONG, [in_other], [])
     is_tight = name == "pitch" and beyond(name, value) > 0.0
     notes, findings = _overlap_of(value) if is_tight else [], explained(name, value, half_unit)
     if not findings:
         notes.append(note("too_few_digits" if half_unit > DIGITS_SHARE * value else "nothing_fits"))
     return Graded(Rating.WRONG, notes, findings)
+
+
+def _in_other_unit(name: str, value: float, half_unit: float) -> Note | None:
+    """That a number is the right one in another unit than asked for, if it is."""
+    for other, factor in OTHER_UNITS[UNITS[name]].items():
+        if abs(value - factor * right_answer(name)) < 2.0 * half_unit <= DIGITS_SHARE * value:
+            number = f"{value / factor:.{_decimals_of(half_unit / factor)}f}"
+            return note("in_other_unit", other=other, unit=UNITS[name], number=number)
+    return None
 
 
 def _safe(name: str, digits: int) -> str:

@@ -19,6 +19,8 @@ WRITTEN = {
     "m": ("m", "metres", "meters", "米"),
     "m/s": ("m/s", "mps", "米/秒", "米每秒"),
 }
+# Numbers of usual form.
+EXAMPLES = {"s": "300.25", "m": "0.4503", "m/s": "1.25"}
 
 
 def plain_number(name: str, text: str, unit: str) -> tuple[str, list[Note]]:
@@ -28,7 +30,7 @@ def plain_number(name: str, text: str, unit: str) -> tuple[str, list[Note]]:
     raises: InvalidValue for what is no number, or has another unit
     """
     typed = text.strip()
-    bare, notes = unicodedata.normalize("NFKC", typed), []
+    bare, notes = unicodedata.normalize("NFKC", typed).replace("。", "."), []
     if bare != typed:
         notes.append(note("full_width"))
     if not TYPED.fullmatch(bare) and (parts := WITH_UNIT.fullmatch(bare)):
@@ -40,5 +42,6 @@ def plain_number(name: str, text: str, unit: str) -> tuple[str, list[Note]]:
         bare = bare.replace(",", ".")
         notes.append(note("with_comma"))
     if not TYPED.fullmatch(bare):
-        raise InvalidValue(name, "must be a number [{unit}] in digits, such as 0.4503", got=Given(text), unit=unit)
+        words = "must be a number [{unit}] in digits, such as {example}"
+        raise InvalidValue(name, words, got=Given(text), unit=unit, example=EXAMPLES[unit])
     return bare, [note("read_as", number=bare), *notes] if notes else []

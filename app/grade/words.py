@@ -131,6 +131,7 @@ WORDS: Phrases = ERRORS | PAPER | {f"name_{code}": name for code, name in NAMES.
     "worst_cell": "Worst: {cell}, {handle}, {quantity} at {time} s is {found}; the right value is {expected}.",
     "first_cell": "First: {cell}, {handle}, {quantity} at {time} s is {found}; the right value is {expected}.",
     "quantity_speed": "speed",
+    "in_other_unit": "This looks like the right answer in {other}; the contest asks for {unit}, which makes it {number} {unit}.",
     "nothing_fits": "No known error gives these numbers.",
     "slips": "All other numbers agree: {count} cells are wrong, which look like slips.",
     "slip": "All other numbers agree: one cell is wrong, which looks like a slip.",

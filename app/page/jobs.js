@@ -18,7 +18,7 @@ const TABLES = { CSV: "text/csv", Parquet: TABLE, Arrow: "application/vnd.apache
 const ENDINGS = { "video/mp4": ".mp4", "image/gif": ".gif", "application/json": ".json", "text/csv": ".csv", "application/geo+json": ".geojson", "image/vnd.dxf": ".dxf", "application/pdf": ".pdf", "application/zip": ".zip", [TABLE]: ".parquet" };
 /** Names of the jobs that Keep starts. @type {Phrases} */
 const NAMES = { films: "Film of the dance", "contest-kit": "The whole contest kit", "collision-time": "First contact with its certificate", "minimum-pitch": "Minimum pitch with its proof", envelope: "Ground that benches sweep", plan: "Plan on paper, true to scale", cues: "A cue card for each bench", check: "The verdict on the whole dance", tolerance: "How far people may stray, with its proof", clearance: "Clearance, every second", trajectory: "Every handle, every second" };
-export const UNFINISHED = ["accepted", "running"];
+const UNFINISHED = ["accepted", "running"];
 /** States of a job. @type {Phrases} */
 const STATES = { accepted: "waits for its turn", running: "runs", successful: "done", failed: "failed", dismissed: "cancelled" };
 
@@ -201,11 +201,21 @@ export class Jobs {
   }
 }
 
+/** Show on the button that has begun a job how far it is. */
+export function showShare(button, { status, progress }) {
+  const going = UNFINISHED.includes(status);
+  button.classList.toggle("going", going);
+  button.style.setProperty("--share", `${progress}%`);
+  button.querySelector(".share").textContent = going ? ` ${progress} %` : "";
+
+}
+
 const resultOf = ({ links }) => links.find(({ rel }) => rel === "results") ?? {};
 /** True if the result is the table of a sweep, which the page can draw. */
 const isTable = (status) => status.processID === "sweep" && ["application/json", TABLE].includes(resultOf(status).type);
 
 function what(process, spec) {
+  if (spec?.number) return say("Question {number}", spec);
   const name = process.replace(/_of$/, "").replaceAll("_", "-");
   if (process !== "sweep") return name in NAMES ? say(NAMES[name]) : process;
   if (!spec) return say("Sweep");

@@ -4,7 +4,7 @@ import { Problem, TOO_LONG, commandFor } from "./api.js";
 import { keptVenueOf, lanesOf, venueOf } from "./drawing.js";
 import { $, $$, bearer, button, download, hide, make, onClick, textButton } from "./elements.js";
 import { CONTACT, DRAGON, FIELDS, LABELS, TURN, numbersOf, strayOf } from "./fields.js";
-import { UNFINISHED } from "./jobs.js";
+import { showShare } from "./jobs.js";
 import { announce, announceRefusal, copy } from "./overlays.js";
 import { fitsQuery } from "./questions.js";
 import { announceSaved } from "./saved.js";
@@ -307,10 +307,7 @@ export class Keep {
   /** Show on its button how far a job is; then a film opens there, and any other result is saved. */
   #follow({ key, file }, form, { jobID, status, progress, problem }) {
     const button = $(`#${key}-${form}`);
-    const going = UNFINISHED.includes(status);
-    button.classList.toggle("going", going);
-    button.style.setProperty("--share", `${progress}%`);
-    button.querySelector(".share").textContent = going ? ` ${progress} %` : "";
+    showShare(button, { status, progress });
     nameButton(button);
     if (problem) announce(() => problem.sentence, true);
     if (status !== "successful") return;

@@ -421,7 +421,7 @@ async function openBelow() {
 /** The five questions of the contest. */
 async function openStrip() {
   const { Strip } = await parts.load("strip");
-  strip ??= new Strip(service, state, () => scrollTo(0, 0));
+  strip ??= new Strip({ service, state, show: () => scrollTo(0, 0), jobs: () => openBelow().then(() => below.jobs) });
   strip.translate();
 }
 

@@ -1,9 +1,10 @@
 /** The five questions of the contest on one strip: each with its answer, why, a picture, what is handed in, and a check of one's own. */
 
 import { Problem, Superseded } from "./api.js";
-import { $, button, download, make } from "./elements.js";
+import { $, bearer, button, download, make } from "./elements.js";
 import { FIELDS } from "./fields.js";
 import { judge } from "./grade.js";
+import { showShare } from "./jobs.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { announceSaved } from "./saved.js";
 import { EXTRAS } from "./state.js";
@@ -43,11 +44,11 @@ function drawn({ words, equal, strokes }) {
 }
 
 /** The map of turns: a touch on a cell takes its turn, arrow keys move a marker and Enter takes it. take(ratio, entry): of that cell */
-function mapOf({ words, ratios, entry_radii: entries, lengths }, take) {
+function mapOf({ words, axes: axisWords, ratios, entry_radii: entries, lengths }, take) {
   const every = lengths.flat().filter((length) => length !== null);
   const [least, most] = [Math.min(...every), Math.max(...every)];
   const [wide, high] = [WIDTH / ratios.length, HEIGHT / entries.length];
-  const map = shape("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "application", "aria-label": words, tabindex: 0, class: "turns" });
+  const map = shape("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "application", "aria-label": words, tabindex: 0, class: "turns", preserveAspectRatio: "none" });
   const told = make("output", {});
   // The contest's turn is on the circle, in the uppermost row.
   let [row, column] = [entries.length - 1, ratios.indexOf(RATIO)];
@@ -78,25 +79,42 @@ function mapOf({ words, ratios, entry_radii: entries, lengths }, take) {
     event.preventDefault();
   });
   mark(row, column);
-  return make("figure", {}, map, told, make("figcaption", { textContent: words }));
+  const ends = (className, values) => make("span", { className }, ...values.map((textContent) => make("span", { textContent })));
+  const axes = [
+    make("span", { className: "up", textContent: axisWords[1] }),
+    ends("rows", [entries.at(-1), entries[0]]),
+    map,
+    ends("columns", [ratios[0], ratios[(ratios.length - 1) / 2], ratios.at(-1)]),
+    make("span", { className: "right", textContent: axisWords[0] }),
+    ends("shades", [`${least.toFixed(2)} m`, `${most.toFixed(2)} m`]),
+  ];
+  return make("figure", {}, make("div", { className: "axes" }, ...axes), told, make("figcaption", { textContent: words }));
 }
 
 const paragraph = (textContent) => make("p", { textContent });
+
+/** Name of the archive that is handed in. */
+const archiveOf = (question) => `bench-dragon-question-${question}.zip`;
 
 export class Strip {
   #language = "";
 
   /**
-   * show(): brings the picture of the dance into sight
-   * @param {Service} service
-   * @param {State} state
+   * show(): brings the picture of the dance into sight; jobs(): Promise of the list of jobs
+   * @param {{ service: Service, state: State, show: () => void, jobs: () => Promise<Jobs> }} parts
    */
-  constructor(service, state, show) {
+  constructor({ service, state, show, jobs }) {
     this.service = service;
     this.state = state;
     this.show = show;
+    this.jobs = jobs;
     this.cards = QUESTIONS.map((number) => make("li", { id: `question-${number}` }));
     $("#five-cards").append(...this.cards);
+    /** Of each question: with what takes seconds; the typed text; what was judged; the button that hands in, and the link to the archive once it is there. @type {any[]} */
+    this.kept = QUESTIONS.map((number) => {
+      const hand = button({}, () => this.#handIn(number), make("span"), make("span", { className: "share" }));
+      return { further: false, text: "", asked: null, hand, made: make("p", { className: "made" }) };
+    });
   }
 
   /** Ask the service for its words in the language of the page, if they are in another one. */
@@ -106,31 +124,40 @@ export class Strip {
     for (const [k, card] of this.cards.entries()) this.#fill(card, QUESTIONS[k]);
   }
 
-  /** further: with what takes seconds, whose reasons are then open */
-  async #fill(card, question, further = false) {
+  async #fill(card, question) {
     const title = make("h3", { textContent: say("Question {number}", { number: question }) });
+    const kept = this.kept[question - 1];
+    const { further } = kept;
     if (!card.firstChild) card.append(title);
     card.setAttribute("aria-busy", true);
     try {
       const answer = await this.service.ask(`five-${question}`, "contest-answer", { query: { question, ...(further && { further }) } });
-      card.replaceChildren(title, ...this.#parts(answer, further, () => this.#fill(card, question, true)));
+      card.replaceChildren(title, ...this.#parts(answer, kept, () => this.#ask(card, question)));
     } catch (error) {
       if (error instanceof Superseded) return;
       if (!(error instanceof Problem)) throw error;
+      kept.further = false;
       if (further) announceRefusal(error);
       else card.replaceChildren(title, make("p", { className: "error", textContent: error.problem.sentence }));
     }
     card.setAttribute("aria-busy", false);
   }
 
-  #parts({ question, asks, text, sentences: [first, ...others], more, turns, picture, offers, workbook, number, example }, open, askMore) {
-    const why = make("details", { open }, make("summary", { textContent: say("Why") }), ...others.map(paragraph));
+  /** Ask for what takes seconds, whose reasons are then open. */
+  async #ask(card, question) {
+    this.kept[question - 1].further = true;
+    await this.#fill(card, question);
+    card.querySelector("summary")?.focus();
+  }
+
+  #parts({ question, asks, text, sentences: [first, ...others], more, turns, picture, offers, workbook, number, example }, kept, askMore) {
+    const why = make("details", { open: kept.further }, make("summary", { textContent: say("Why") }), ...others.map(paragraph));
     const buttons = offers.map((offer) => button({ textContent: offer.words }, () => this.#take(offer)));
     if (more) buttons.push(button({ textContent: more }, askMore));
-    const hand = button({ textContent: say("Hand in: {files}", { files: workbook ?? say("figure") }) }, () => this.#handIn(question, hand));
+    kept.hand.firstChild.textContent = say("Hand in: {files}", { files: workbook ?? say("figure") });
     if (turns) why.append(mapOf(turns, (ratio, entry) => this.#take({ path: "turn", numbers: { ratio, entry_radius: entry, exit_radius: entry, time: 0 } })));
     const value = make("p", { className: "value", textContent: text });
-    return [make("p", { className: "asks", textContent: asks }), drawn(picture), value, paragraph(first), why, make("p", { className: "buttons" }, ...buttons, hand), this.#check(question, { workbook, number, example })];
+    return [make("p", { className: "asks", textContent: asks }), drawn(picture), value, paragraph(first), why, make("p", { className: "buttons" }, ...buttons, kept.hand), kept.made, this.#check(question, kept, { workbook, number, example })];
   }
 
   /** The dance of an offer, with the contest's numbers for all else. */
@@ -143,12 +170,21 @@ export class Strip {
     this.show();
   }
 
-  async #handIn(question, hand) {
-    const name = `question-${question}.zip`;
+  /** Make the archive as a job; a service that takes none from this client makes it at once. */
+  async #handIn(question) {
+    const { hand, made } = this.kept[question - 1];
+    if (hand.classList.contains("going") || hand.disabled) return;
+    const [name, body] = [archiveOf(question), { question, language: language() }];
     hand.disabled = true;
-    announce(() => say("Being made: “{name}”. It is saved as soon as it is ready.", { name }), true);
+    made.replaceChildren();
     try {
-      download(await this.service.ask(`hand-in-${question}`, "contest-kit", { body: { question, language: language() }, accept: "application/zip" }), name);
+      const jobs = await this.jobs();
+      const headers = { Prefer: "respond-async", ...bearer() };
+      const status = await this.service.ask(`hand-in-${question}`, "contest-kit", { body, headers, accept: "application/zip, application/json;q=0.1" }).catch(() => null);
+      if (status) jobs.add(status, { question: "contest-kit", over: {}, number: question }, (now) => this.#follow(question, now));
+      announce(() => say("Being made: “{name}”. It is saved as soon as it is ready.", { name }), true);
+      if (status) return;
+      download(await this.service.ask(`hand-in-${question}`, "contest-kit", { body, accept: "application/zip" }), name);
       announceSaved(name);
     } catch (error) {
       announceRefusal(error);
@@ -157,17 +193,36 @@ export class Strip {
     }
   }
 
+  /** Show how far an archive is; then it is saved, and a link leads to it. */
+  #follow(question, status) {
+    const { hand, made } = this.kept[question - 1];
+    showShare(hand, status);
+    if (status.problem) announce(() => status.problem.sentence, true);
+    if (status.status !== "successful") return;
+    const name = archiveOf(question);
+    const link = make("a", { href: `jobs/${status.jobID}/result`, download: name, textContent: name });
+    made.replaceChildren(link);
+    link.click();
+    announceSaved(name);
+  }
+
   /** A number to type, a workbook to drop, and what the service says of it, in place. */
-  #check(question, { workbook, number, example }) {
+  #check(question, kept, { workbook, number, example }) {
     const verdict = make("div", { className: "verdicts", "aria-live": "polite" });
     const ask = async (asked) => {
+      kept.asked = asked;
       verdict.replaceChildren(paragraph(say("Checking …")));
       const found = await judge(this.service, `check-${question}`, { ...asked, language: language() });
-      if (found) verdict.replaceChildren(...found.boxes);
+      if (found && kept.asked === asked) verdict.replaceChildren(...found.boxes);
     };
     const parts = [];
     if (number) {
-      const typed = make("input", { id: `mine-${question}`, inputMode: "text", autocomplete: "off", placeholder: example, ariaLabel: say("Your answer to question {number}", { number: question }) });
+      const typed = make("input", { id: `mine-${question}`, inputMode: "text", autocomplete: "off", placeholder: example, value: kept.text, ariaLabel: say("Your answer to question {number}", { number: question }) });
+      // A verdict is of the number that stands there.
+      typed.addEventListener("input", () => {
+        [kept.text, kept.asked] = [typed.value, null];
+        verdict.replaceChildren();
+      });
       parts.push(typed, make("button", { textContent: say("Check mine") }));
     }
     if (workbook) {
@@ -178,14 +233,16 @@ export class Strip {
     const form = make("form", { className: "check" }, ...parts);
     form.addEventListener("submit", (event) => {
       event.preventDefault();
-      const text = form.querySelector(`#mine-${question}`)?.value.trim();
+      const text = kept.text.trim();
       if (text) ask({ name: number, text });
+      else verdict.replaceChildren(paragraph(say("Type your answer first, such as {example}.", { example })));
     });
     for (const type of ["dragenter", "dragover"]) form.addEventListener(type, (event) => event.preventDefault());
     form.addEventListener("drop", (event) => {
       event.preventDefault();
       if (event.dataTransfer.files[0]) ask({ file: event.dataTransfer.files[0] });
     });
+    if (kept.asked) ask(kept.asked); // in the language of the page
     return make("div", {}, form, verdict);
   }
 }

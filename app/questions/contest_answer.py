@@ -58,6 +58,7 @@ class TurnLengths(Answer):
     """Lengths of turns that leave opposite to where they enter, by ratio and entry."""
 
     words: str = Field(description="What the map shows")
+    axes: list[str] = Field(description="Names of the columns and of the rows, with their units")
     ratios: list[float] = measure("1", "Radius of the first arc over that of the second: the columns")
     entry_radii: list[float] = measure("m", "Distances of the entry from the centre: the rows")
     lengths: list[list[float | None]] = measure("m", "A row for each entry; null where the benches cannot dance it")
@@ -266,10 +267,11 @@ def _lengths(dragon: Dragon, terms: Terms) -> TurnLengths:
         if contact.outcome is Outcome.CLEAR and isinstance(dance.path, core.Turn):
             lengths[row][column] = dance.path.length
     words = say(
-        "Length of the turn by the ratio, to the right, and the entry, upwards; grey: too tight. Touch one, or use "
-        "the arrow keys and Enter."
+        "Length of the turn by its ratio and its entry; the darker the longer, grey: too tight. Touch one to dance "
+        "it, or use the arrow keys and Enter."
     )
-    return TurnLengths(words=words, ratios=ratios.tolist(), entry_radii=entries.tolist(), lengths=lengths)
+    axes = [say("ratio of the arcs [1]"), say("entry, from the centre [m]")]
+    return TurnLengths(words=words, axes=axes, ratios=ratios.tolist(), entry_radii=entries.tolist(), lengths=lengths)
 
 
 def _speed(dragon: Dragon, terms: Terms) -> ContestAnswer:
@@ -280,7 +282,7 @@ def _speed(dragon: Dragon, terms: Terms) -> ContestAnswer:
     x, y = motion.position[-1, first]
     words = [
         say(
-            "The fastest are {handles}, one after another, with {ratio:.4f} times the speed of the head, which is "
+            "The fastest are {handles}, at the same instant, with {ratio:.4f} times the speed of the head, which is "
             "then {way:.2f} m past the beginning of the turn.",
             handles=handles_words(fastest.handles),
             ratio=fastest.speed_ratio,

@@ -84,6 +84,7 @@ def test_a_name_in_another_encoding_is_no_obstacle(client, name):
         ("collision_time", " 412.473838 ", []),
         ("turn_length", "１３．６２１２４５", ["Read as 13.621245.", "Its digits are full-width ones"]),
         ("collision_time", "４１２，４７ 秒", ["Read as 412.47.", "Its digits", "The unit s", "The comma"]),
+        ("pitch", "0。450338", ["Read as 0.450338.", "Its digits are full-width ones"]),
     ],
 )
 def test_a_number_is_read_as_people_type_it_and_notes_say_how(client, name, text, notes):
@@ -95,10 +96,25 @@ def test_a_number_is_read_as_people_type_it_and_notes_say_how(client, name, text
 
 
 @pytest.mark.parametrize(
+    "name, text, words",
+    [
+        ("pitch", "45.04", "in cm; the contest asks for m, which makes it 0.4504 m."),
+        ("collision_time", "6.8746", "in min; the contest asks for s, which makes it 412.48 s."),
+        ("speed", "4.4866", "in km/h; the contest asks for m/s, which makes it 1.24628 m/s."),
+        ("pitch", "45.2", "No known error gives"),
+    ],
+)
+def test_a_wrong_number_that_is_right_in_another_unit_is_recognised(client, name, text, words):
+    [answer] = client.post("/grade", params={name: text}, content=b"", headers=FILE).json()["answers"]
+    assert answer["verdict"] == "wrong"
+    assert words in answer["notes"][0]
+
+
+@pytest.mark.parametrize(
     "text, sentence",
     [
         ("45.03 cm", "“Length of the turn” must be in m, without another unit, got '45.03 cm'."),
-        ("1,234,5", "“Length of the turn” must be a number [m] in digits, such as 0.4503, got '1,234,5'."),
+        ("abc", "“Length of the turn” must be a number [m] in digits, such as 0.4503, got 'abc'."),
         ("十三", "“Length of the turn” must be a number [m] in digits, such as 0.4503, got '十三'."),
     ],
 )
