@@ -56,14 +56,12 @@ class LooseTail(Ground):
     beyond_spectators: bool = Field(description="True: they can reach people who stand where these may")
 
 
-class LaneStay(Answer, of=core.Stay):
+class LaneStay(Answer, of=core.Stay, leave=()):
     """A time during which benches of one dragon are in a lane."""
 
     dragon: int = Field(description="The dragon, in the order of the dances")
     begin: float
     end: float
-    first: int
-    last: int
 
 
 class LaneBody(Wire, strict=True):

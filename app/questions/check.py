@@ -32,7 +32,7 @@ from app.wire.readings import (
     way_words,
 )
 from app.wire.refusals import refusing
-from core import Dance, FailureKind, Judgement, Outcome, Performance, Venue
+from core import Dance, FailureKind, Judgement, Performance, Venue
 from core.errors import format_bound, format_number
 from core.language import phrase, say
 
@@ -61,13 +61,10 @@ class CheckRequest(SeveralFields, DanceCheck, strict=True):
     """Verdict on a dance: dragon, path, venue and limits; or on several dances on one clock."""
 
 
-class AreaClearance(Answer, of=core.AreaClearance):
+class AreaClearance(Answer, of=core.AreaClearance, leave=()):
     """Distance between the benches and the edges of the square or of one obstacle."""
 
     name: str
-    outcome: Outcome
-    time: float | None
-    time_bracket: Point | None
     overlapping: int | None
     bench: int | None
     gap: float | None
@@ -75,41 +72,34 @@ class AreaClearance(Answer, of=core.AreaClearance):
     nearest: core.Nearest | None
 
 
-class VenueClearance(Answer, of=core.VenueClearance):
+class VenueClearance(Answer, of=core.VenueClearance, leave=()):
     """Distances between the benches and the venue."""
 
-    misplaced: core.Misplaced | None
     stray: core.Misplaced | None = Field(description="The same as misplaced, under its former name")
     areas: list[AreaClearance]
 
 
-class HighestSpeed(Answer, of=core.HighestSpeed):
+class HighestSpeed(Answer, of=core.HighestSpeed, leave=()):
     """The highest speed of any handle over continuous time."""
 
     speed: float
-    speed_bracket: tuple[float, float | None]
     time: float
     handles: list[int]
-    passage: int | None
     sentences: list[str] = SENTENCES
     words: evidence.Words | None = evidence.WORDS
 
 
-class Failure(Answer, of=core.Failure):
+class Failure(Answer, of=core.Failure, leave=()):
     """One failed or undecided condition."""
 
     kind: core.FailureKind
     time: float
-    benches: list[int]
     area: str | None
     names: list[str] = Field(description="Names of these benches, empty for one without; none where no bench has any")
     clock: str | None = Field(description="Time of day of that time, if start_clock or begin_clock is given")
     message: str
     sentence: str = Field(description="The same for people: without its time, and with benches as they are called")
     time_bracket: Point | None
-    head: core.HeadState | None
-    peak_speed: float | None
-    peak_time: float | None
 
     @classmethod
     def of(cls, result: core.Failure, dragon: core.Dragon, start_clock: str | None, sentence: str = "") -> Self:
@@ -127,7 +117,7 @@ class Origin(Answer):
     latitude: float = measure("degrees", "Latitude, north positive")
 
 
-class Report(Answer, of=core.Report):
+class Report(Answer, of=core.Report, leave=()):
     """Verdict on the dance, which stops at a contact or a fold."""
 
     verdict: core.Judgement
@@ -212,7 +202,7 @@ class DragonsClearance(DragonPair, of=core.PerformanceLeastClearance):
     time: float
 
 
-class PerformanceReport(Answer, of=core.PerformanceReport):
+class PerformanceReport(Answer, of=core.PerformanceReport, leave=("performance",)):
     """Verdict on several dances on one clock."""
 
     verdict: core.Judgement

@@ -8,7 +8,7 @@ from pydantic import Field
 
 import core
 from app.wire import evidence
-from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair, Point
+from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair
 from app.wire.dances import DanceFields, SpanFields
 from app.wire.fields import Answer, CrossCheck, DanceQuery, Margin, Strays, UniformDragon
 from app.wire.labels import with_strays
@@ -37,33 +37,23 @@ class CollisionRequest(Contact, SpanFields, DanceFields, strict=True):
     """First time that two benches touch, or come within a margin, on any path."""
 
 
-class Certificate(Answer, of=core.Evidence):
+class Certificate(Answer, of=core.Evidence, leave=()):
     """Evidence for the answer."""
 
     method: str
     claim: core.ContactClaim
-    steps: int
-    clear_until: float | None
-    bound: float
-    least_clearance: core.Graze | None
 
 
-class CollisionTime(Answer, of=core.FirstContact):
+class CollisionTime(Answer, of=core.FirstContact, leave=("dance",)):
     """First time that two benches that share no handle come within the margin, or touch if it is 0."""
 
     outcome: Outcome
     margin: float
     stray: float | None = TOTAL_STRAY
     time: float | None
-    time_bracket: Point | None
-    overlapping: Pair | None
-    head: core.HeadState | None
     benches: Pair | None
     gap: float | None
     corner: core.Feature | None
-    edge: core.Feature | None
-    point: Point | None
-    end: core.RunEnd | None
     sentences: list[str] = SENTENCES
     words: evidence.ContactWords | None = evidence.WORDS
     certificate: Certificate

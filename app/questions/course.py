@@ -15,7 +15,6 @@ from app.wire.readings import bench_words
 from core.breaches import AreaGap as Gap
 from core.breaches import BreachKind, area_gaps, breaches
 from core.language import say
-from core.paths.following import Hindrance
 from core.proposal.answer import told_apart
 
 # A route of 1,000 points, measured 2026-11-22, and where its dance breaks limits, measured 2026-11-27 [s].
@@ -30,16 +29,10 @@ class CourseRequest(Strays, SpanFields, PlacedDance, strict=True):
     speed_limit: SpeedLimit | None = measure("m/s", "Highest speed allowed for any handle; default: no limit", None)
 
 
-class TightBend(Answer, of=core.TightBend):
+class TightBend(Answer, of=core.TightBend, leave=()):
     """A stretch of the path that a bench cannot follow."""
 
-    start: float
-    end: float
     points: list[Point]
-    radius: float
-    least_radius: float
-    bench: int
-    reason: Hindrance
     sentence: str = Field(description="The bend in one sentence")
 
 
@@ -55,12 +48,8 @@ class Breach(Answer):
     points: list[Point] = measure("m", "Points along it, x and y")
 
 
-class AreaGap(Answer, of=Gap):
+class AreaGap(Answer, of=Gap, leave=()):
     """How near the benches come to an area at samples of the dance."""
-
-    name: str
-    distance: float
-    enough: float
 
 
 class Course(Answer, of=core.Course):

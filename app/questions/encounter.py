@@ -31,25 +31,21 @@ class NearPass(DragonPair, of=core.NearPass):
     clearance: float
 
 
-class EncounterCertificate(Answer, of=core.EncounterEvidence):
+class EncounterCertificate(Answer, of=core.EncounterEvidence, leave=()):
     """Evidence for the answer."""
 
     method: str
     claim: core.EncounterClaim
-    steps: int
-    clear_until: float | None
-    bound: float
     least_clearance: NearPass | None
 
 
-class Encounter(Answer, of=core.FirstEncounter):
+class Encounter(Answer, of=core.FirstEncounter, leave=("feature_dragons", "performance")):
     """First time that benches of two different dragons come within the margin, or touch if it is 0."""
 
     outcome: Outcome
     margin: float
     stray: float | None = TOTAL_STRAY
     time: float | None
-    time_bracket: Point | None
     overlapping: DragonPair | None
     dragons: Pair | None
     names: tuple[str | None, str | None] | None = Field(description="Their names; null for a dragon without one")

@@ -50,12 +50,11 @@ class EnvelopeRequest(SeveralDances, WholeSpan, DanceFields, strict=True):
     )
 
 
-class SweepProof(Answer, of=core.SweepProof):
+class SweepProof(Answer, of=core.SweepProof, leave=()):
     """Proven bounds of the envelope."""
 
     method: str
     claim: core.GroundClaim
-    cells: int
 
 
 class Envelope(Answer, of=core.Envelope):

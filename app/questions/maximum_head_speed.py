@@ -42,16 +42,9 @@ class MaximumHeadSpeedRequest(SpeedLimitField, DanceFields, strict=True):
     )
 
 
-class MaximumHeadSpeed(Answer, of=core.MaximumHeadSpeed):
+class MaximumHeadSpeed(Answer, of=core.MaximumHeadSpeed, leave=()):
     """The largest constant head speed at which no handle ever exceeds the limit; passages keep their ratio to it."""
 
-    head_speed: float
-    head_speed_bracket: tuple[float | None, float]
-    speed_ratio: float
-    handles: list[int]
-    time: float
-    time_at_unit_head_speed: float
-    passage: int | None
     sentences: list[str] = SENTENCES
     words: evidence.Words | None = evidence.WORDS
 

@@ -6,7 +6,7 @@ from pydantic import Field
 
 import core
 from app.wire import evidence
-from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair, Point
+from app.wire.answers import SENTENCES, TOTAL_STRAY
 from app.wire.dances import BenchByBench, DragonFields
 from app.wire.fields import PITCH_MAX, Answer, CrossCheck, Strays, UniformDragon, Whole
 from app.wire.paths import Circle, WayToCircle
@@ -42,23 +42,10 @@ class MinimumPitchRequest(PitchFields, DragonFields, strict=True):
     """Smallest pitch such that every larger one reaches the circle, for any dragon."""
 
 
-class MinimumPitch(Answer, of=core.MinimumPitch):
+class MinimumPitch(Answer, of=core.MinimumPitch, leave=()):
     """The smallest pitch such that every larger one lets the head reach the turning circle without two benches nearer
     than the margin (touching, if it is 0)."""
 
-    pitch: float
-    pitch_bracket: Point
-    limited_by: core.LimitedBy
-    benches: Pair | None
-    bench: int | None
-    head_radius: float | None
-    other_feasible_intervals: list[Point]
-    justified_by: core.JustifiedBy
-    proven_from: float
-    proven_up_to: float | None
-    scan_step: float | None
-    evaluations: int
-    dragons: Pair | None
     stray: float | None = TOTAL_STRAY
     sentences: list[str] = SENTENCES
     words: evidence.Words | None = evidence.WORDS

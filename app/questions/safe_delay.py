@@ -43,7 +43,7 @@ class SafeDelayRequest(DelayFields, PerformanceFields, strict=True):
     """The delays of one dragon at which no benches of two dragons touch, or come within a margin."""
 
 
-class SafeDelays(Answer, of=core.SafeDelays):
+class SafeDelays(Answer, of=core.SafeDelays, leave=("performance",)):
     """The delays of one dragon at which no benches of two dragons come within the margin, or touch if it is 0."""
 
     part: int
@@ -53,10 +53,7 @@ class SafeDelays(Answer, of=core.SafeDelays):
     undecided: list[Point]
     least: float
     most: float
-    margin: float
     stray: float | None = TOTAL_STRAY
-    stop: float | None
-    marches: int
     summary: str = Field(description="The answer in one sentence")
 
     @classmethod

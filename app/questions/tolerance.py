@@ -15,7 +15,7 @@ from app.wire.fields import Answer, DanceQuery, TurningDiameter, Wire, measure
 from app.wire.performances import SeveralFields
 from app.wire.question import Command, Question, Terms
 from app.wire.readings import stray_words
-from core import InvalidValue, Limit
+from core import InvalidValue
 from core.errors import Quantity
 from core.language import phrase, say
 from core.tolerance.curve import time_on_circle
@@ -67,18 +67,16 @@ class Shown(Answer, of=core.Exhibit):
     stray: float
 
 
-class StrayProof(Answer, of=core.StrayProof):
+class StrayProof(Answer, of=core.StrayProof, leave=()):
     """Evidence for the safe stray."""
 
     method: str
     claim: core.StrayClaim
-    steps: int
 
 
-class Tolerance(Answer, of=core.Tolerance):
+class Tolerance(Answer, of=core.Tolerance, leave=("independent",)):
     """Largest distance of every hole from its place, at any time, without any contact."""
 
-    stray: float
     simple: float
     stray_with_errors: float | None = measure(
         "m",
@@ -86,13 +84,7 @@ class Tolerance(Answer, of=core.Tolerance):
         "such errors",
     )
     stray_bracket: tuple[float, float | None]
-    limited_by: Limit
-    time: float | None
-    benches: tuple[int, int | None] | None
-    area: str | None
     exhibit: Shown | None
-    start: float
-    stop: float
     sentences: list[str] = SENTENCES
     words: evidence.Words | None = evidence.WORDS
     certificate: StrayProof
@@ -106,21 +98,15 @@ class ShownTogether(Answer, of=core.PerformanceExhibit):
     stray: float
 
 
-class PerformanceTolerance(Answer, of=core.PerformanceTolerance):
+class PerformanceTolerance(Answer, of=core.PerformanceTolerance, leave=("performance",)):
     """Largest distance of every hole of several dragons from its place, at any time, without any contact."""
 
-    stray: float
-    stray_bracket: tuple[float, float | None]
-    limited_by: Limit
     dragons: list[int]
     names: list[str | None] = Field(description="Their names; null for a dragon without one")
     time: float | None
-    benches: tuple[int, int | None] | None
-    area: str | None
     exhibit: ShownTogether | None
     own: list[float] = measure("m", "Safe stray of each dragon by itself in the venue")
     start: float
-    stop: float
     certificate: EncounterCertificate | None
 
 

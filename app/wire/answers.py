@@ -64,7 +64,7 @@ class OwnedFeature(Answer, of=core.Feature):
     dragon: int = Field(description="Number of the dragon, in the order of the dances")
 
 
-class EncounterCheck(Answer, of=core.EncounterCheck):
+class EncounterCheck(Answer, of=core.EncounterCheck, leave=()):
     """Verdicts of independent engines on the benches of several dragons; within the margin counts as overlapping."""
 
     agree: bool

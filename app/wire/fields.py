@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections.abc import Collection
 from dataclasses import fields
 from functools import lru_cache
 from types import NoneType
@@ -266,6 +267,12 @@ def described_field(name: str, kind: type) -> FieldInfo | None:
     return field
 
 
+def _on_wire(kind: Any) -> Any:
+    """The type of a field of a value of core in an answer: a tuple of any length is a list."""
+    entries = get_args(kind)
+    return list[_on_wire(entries[0])] if entries[1:] == (...,) else kind  # type: ignore[misc]
+
+
 def _first_paragraph(schema: dict[str, Any]) -> None:
     """Cut the description of an answer behind its first paragraph, where its fields are described."""
     if "description" in schema:
@@ -277,6 +284,8 @@ class Answer(BaseModel):
 
     A part that says what a value of core says is that value itself. Where an answer says more, `of` is the value whose
     docstring describes the fields of the same names; its own docstring may describe fields behind its first paragraph.
+    With `leave`, it has also the fields of that value that it does not declare, each behind the one that is before it
+    there, but those to leave out.
     """
 
     model_config = ConfigDict(
@@ -287,11 +296,20 @@ class Answer(BaseModel):
         json_schema_extra=_first_paragraph,
     )
 
-    def __init_subclass__(cls, of: type | None = None, **options: Any) -> None:
+    def __init_subclass__(cls, of: Any = None, leave: Collection[str] | None = None, **options: Any) -> None:
         super().__init_subclass__(**options)
+        if leave is None:
+            return
+        kinds, names, place = get_type_hints(of), list(cls.__annotations__), -1
+        for name in (field.name for field in fields(of) if field.name not in leave):
+            if name in names:
+                place = names.index(name)
+            else:
+                names.insert(place := place + 1, name)
+        cls.__annotations__ = {name: cls.__annotations__.get(name) or _on_wire(kinds[name]) for name in names}
 
     @classmethod
-    def __pydantic_init_subclass__(cls, of: type | None = None, **options: Any) -> None:
+    def __pydantic_init_subclass__(cls, of: type | None = None, leave: Any = None, **options: Any) -> None:
         super().__pydantic_init_subclass__(**options)
         kind = of or (cls if "\n\n" in (cls.__doc__ or "") else None)
         for name, known in ((name, described_field(name, kind)) for name in cls.model_fields if kind):
