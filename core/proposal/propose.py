@@ -29,7 +29,7 @@ from core.proposal.answer import Objective, Proposal, Proposals, Reason, ReasonK
 from core.proposal.figures import CLOSED, Figure
 from core.proposal.free_ground import FreeGround
 from core.proposal.gates import Gate, checked_gates, ways_through
-from core.proposal.search import HEAD_SPEED, LAPS_MOST, Rated, Search, Wish
+from core.proposal.search import HEAD_SPEED, LAPS_MOST, Rated, Search, Wish, search_in
 from core.sampling import bisect
 from core.values import Floats, Progress, unheard
 from core.venue import Venue
@@ -109,7 +109,7 @@ def propose(
         raise InvalidValue("dragon.benches", "must be at most {most}", got=dragon.benches, most=BENCHES_MOST)
     work = (budget or Budget()).within(PROPOSE_WORK)
     work.afford()
-    search = Search(venue, dragon, doors, wish, work)
+    search = search_in(venue, dragon, doors, wish, work)
     most = None if doors else _area_bound(search, dragon)
     if wish.objective is Objective.BENCHES:
         return _most_benches(search, venue, kinds, count, most, on_proposal, progress or unheard)
@@ -119,7 +119,7 @@ def propose(
     best, reason = _collected(search, kinds, count, on_proposal, progress or unheard), None
     if not best:
         best, reason = _otherwise(search, venue, kinds, count, on_proposal)
-    return Proposals(best, search.tried, search.checked, reason, most)
+    return Proposals(best, search.spent.tried, search.spent.checked, reason, most)
 
 
 def _wish(dragon: Dragon, wishes: Wishes) -> Wish:
@@ -200,12 +200,11 @@ def _otherwise(
     narrow = _too_narrow(search, venue, figures)
     if narrow is not None:
         return (), narrow
-    if search.too_long and (shortest := search.shortest()) is not None:
-        return (), Reason(ReasonKind.DURATION, search.tried, search.wish.duration_limit, *shortest)
-    if search.look_closely():
-        best = _collected(search, figures, count, on_proposal, unheard)
-        if best:
-            return best, None
+    if search.failed.too_long and (shortest := search.shortest()) is not None:
+        return (), Reason(ReasonKind.DURATION, search.spent.tried, search.wish.duration_limit, *shortest)
+    search = search.close_look() or search
+    if search.closely and (best := _collected(search, figures, count, on_proposal, unheard)):
+        return best, None
     if search.wish.stray > 0.0:
         best, reason = _without_stray(search, venue, figures)
         for proposal in best:
@@ -226,7 +225,7 @@ def _otherwise(
 
 def _too_narrow(search: Search, venue: Venue, figures: Sequence[Figure]) -> Reason | None:
     """The reason that every way between two gates, or the whole square, is too narrow."""
-    needs, tried = search.needs, search.tried
+    needs, tried = search.needs, search.spent.tried
     if Figure.PARADE in figures:
         ways = {(min(k, j), max(k, j)) for k, j in _numbers(search.gates)}
         widths = [(_widest_way(search, search.gates[a], search.gates[b]), (a, b)) for a, b in sorted(ways)]
@@ -256,7 +255,7 @@ def _no_turn(search: Search, widest: float) -> Reason | None:
     if widest >= needs.turning_width:
         return None
     bench = int(np.argmax(needs.dragon.chords[: needs.dragon.uniform_from + 1]))
-    return Reason(ReasonKind.WIDTH, search.tried, widest, needs.turning_width, who=(bench,))
+    return Reason(ReasonKind.WIDTH, search.spent.tried, widest, needs.turning_width, who=(bench,))
 
 
 def _widest_way(search: Search, begin: Gate, end: Gate) -> float:
@@ -294,14 +293,13 @@ def _without_stray(
         stray = _allowed(second, dance, wish.stray)
         most = max(most, (stray, figure), key=lambda each: each[0])
         if stray == wish.stray:
-            second.wish = wish
-            best += [proposal for proposal in [second.certified(one, dance)] if proposal is not None]
-            second.wish = steady
-    search.include(second)
-    search.nearest = search.nearest or second.nearest
+            proposal = replace(second, wish=wish).certified(one, dance)
+            best += [] if proposal is None else [proposal]
+    if search.failed.nearest is None and second.failed.nearest is not None:
+        search.failed.note(*second.failed.nearest)
     if best or not 0.0 < most[0] < wish.stray:
         return tuple(sorted(best, key=_VALUES[wish.objective], reverse=True)), None
-    return (), Reason(ReasonKind.STRAY, search.tried, most[0], wish.stray, most[1])
+    return (), Reason(ReasonKind.STRAY, search.spent.tried, most[0], wish.stray, most[1])
 
 
 def _allowed(search: Search, dance: Dance, stray: float) -> float:
@@ -328,7 +326,7 @@ def _fewer_benches(search: Search, venue: Venue, figures: Sequence[Figure]) -> R
         return None
     fitting, (one, *_) = longest
     most = float(fitting.dragon.benches)
-    return Reason(ReasonKind.BENCHES, search.tried, most, float(benches), one.design.figure)
+    return Reason(ReasonKind.BENCHES, search.spent.tried, most, float(benches), one.design.figure)
 
 
 def _longest(
@@ -336,7 +334,7 @@ def _longest(
 ) -> tuple[Search, tuple[Rated, Dance, int]] | None:
     """The search for the longest dragon that was found to fit, by doubling and by bisection, with a dance that passes.
 
-    like: a search for the same dragon and gates, whose numbers of tried dances grow
+    like: a search for the same dragon and gates
     span: number of benches to begin with, and the largest one
     returns: None if not even one bench fits
     """
@@ -352,7 +350,6 @@ def _longest(
         else:
             every = (search.first(search.ranked(figure), briefly=True) for figure in figures)
             passing = next((one for one in every if one is not None), None)
-            like.include(search)
         if passing is None:
             high = count
         else:
@@ -365,20 +362,21 @@ def _failing(search: Search, venue: Venue, figures: Sequence[Figure]) -> tuple[t
     """The first failure of the dance that came nearest, of one bench if none of the whole dragon was worth a check; or
     this dance, if it passes."""
     benches, last = search.dragon.benches, search
-    if search.nearest is None:
+    if search.failed.nearest is None:
         last = search.of(venue, with_benches(search.dragon, 1), search.wish)
         passing = last.check_nearest(figures)
-        search.include(last)
-        if passing is not None and benches > 1:
-            return (), Reason(ReasonKind.BENCHES, search.tried, 1.0, float(benches), passing[0].design.figure)
-        if passing is not None and (proposal := last.certified(*passing)) is not None:
-            return (proposal,), None
+        if passing is not None:
+            last, one, dance = passing
+            if benches > 1:
+                return (), Reason(ReasonKind.BENCHES, search.spent.tried, 1.0, float(benches), one.design.figure)
+            if (proposal := last.certified(one, dance)) is not None:
+                return (proposal,), None
     most = float(last.dragon.benches)
-    if last.nearest is None:
-        return (), Reason(ReasonKind.FAILS, search.tried, most, float(benches))
-    one, report = last.nearest
+    if last.failed.nearest is None:
+        return (), Reason(ReasonKind.FAILS, search.spent.tried, most, float(benches))
+    one, report = last.failed.nearest
     figure, failure = one.design.figure, report.failures[0]
-    return (), Reason(ReasonKind.FAILS, search.tried, most, float(benches), figure, failure=failure)
+    return (), Reason(ReasonKind.FAILS, search.spent.tried, most, float(benches), figure, failure=failure)
 
 
 def with_benches(dragon: Dragon, count: int) -> Dragon:
@@ -425,4 +423,4 @@ def _most_benches(
     best, reason = tuple(sorted(every, key=_VALUES[Objective.BENCHES], reverse=True)[:count]), None
     if not best:
         best, reason = _otherwise(search, venue, figures, count, on_proposal)
-    return Proposals(best, search.tried, search.checked, reason, most)
+    return Proposals(best, search.spent.tried, search.spent.checked, reason, most)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import chain, islice, product
 from typing import Any
 
@@ -94,51 +94,67 @@ class Wish:
         return {"margin": self.margin, "stray": self.stray, "speed_limit": self.speed_limit}
 
 
-class Search:
-    """The search for one dragon in one venue.
+@dataclass
+class Spent:
+    """What all searches of one question spent: numbers of dances that were rated, and judged by a check."""
 
-    closely: designs lead through channels and are measured bench by bench, see look_closely()
-    tried, checked: numbers of dances that were rated, and judged by a check
+    tried: int = 0
+    checked: int = 0
+
+
+@dataclass
+class Failed:
+    """What a search left out.
+
     nearest: the best-rated dance that failed its check, with its report
-    too_long: rated dances that were left out because even the fewest times around take too long
+    too_long: rated dances of which even the fewest times around take too long
     """
 
-    def __init__(self, venue: Venue, dragon: Dragon, gates: Sequence[Gate], wish: Wish, budget: Budget) -> None:
-        self.dragon, self.gates, self.wish, self.budget = dragon, tuple(gates), wish, budget
-        self.needs = Needs(dragon, wish.stray, wish.margin)
-        least = 2.0 * (self.needs.straight_side + self.needs.free + STREET_LEAST)
-        self.street_width = least + 2.0 * (STREET_ROOM - STREET_LEAST)
-        street = street_length(self.needs)
-        self.venue = with_streets(venue, gates, (self.street_width, least), street) if gates else venue
-        square = venue.square.edges.reshape(-1, 2)
-        self.ground = FreeGround(self.venue, (square.min(axis=0), square.max(axis=0)))
-        self.ways, self.closely = LegFinder(self.ground, self.needs, budget), False
-        self.tried = self.checked = 0
-        self.nearest: tuple[Rated, Report] | None = None
-        self.too_long: list[Rated] = []
+    nearest: tuple[Rated, Report] | None = None
+    too_long: list[Rated] = field(default_factory=list)
 
-    def look_closely(self) -> bool:
-        """Lay out designs through channels from now on, measured bench by bench; False if there is no channel."""
+    def note(self, one: Rated, report: Report) -> None:
+        """Keep a dance that failed its check, if it is the best-rated so far."""
+        if self.nearest is None or one.rating.stray > self.nearest[0].rating.stray:
+            self.nearest = (one, report)
+
+
+@dataclass(frozen=True)
+class Search:
+    """The search for one dragon in one venue, see search_in(): what it looks for, and the ground on which it does.
+
+    venue: with a street of this width beyond each gate [m]
+    ways: what lays out the legs of designs; closely: they lead through channels and are measured bench by bench
+    """
+
+    venue: Venue
+    dragon: Dragon
+    gates: tuple[Gate, ...]
+    wish: Wish
+    budget: Budget
+    needs: Needs
+    street_width: float
+    ground: FreeGround
+    ways: LegFinder
+    spent: Spent
+    failed: Failed = field(default_factory=Failed)
+    closely: bool = False
+
+    def close_look(self) -> Search | None:
+        """The same search with designs that lead through channels, measured bench by bench; None if there is none."""
         if self.closely or not self.gates:
-            return False
+            return None
         wide = self.ways.sides[self.needs.radii[0]] + self.needs.free
         leads = (0.0, self.needs.chord)
         entered = [moved((*gate.point, gate.heading), (lead, 0.0))[:2] for gate in self.gates for lead in leads]
         if self.ground.clearance(np.array(entered)).min() >= wide and not self.ways.channels:
-            return False
-        self.closely, self.ways = True, ChannelLegFinder(self.ground, self.needs, self.budget)
-        return True
+            return None
+        return replace(self, closely=True, ways=ChannelLegFinder(self.ground, self.needs, self.budget))
 
     def of(self, venue: Venue, dragon: Dragon, wish: Wish) -> Search:
         """A search for another dragon or wish between the same gates, as close as this one. venue: without streets"""
-        other = Search(venue, dragon, self.gates, wish, self.budget)
-        if self.closely:
-            other.look_closely()
-        return other
-
-    def include(self, other: Search) -> None:
-        """Count the dances of another search too."""
-        self.tried, self.checked = self.tried + other.tried, self.checked + other.checked
+        other = search_in(venue, dragon, self.gates, wish, self.budget, self.spent)
+        return (other.close_look() or other) if self.closely else other
 
     def value(self, rating: PathRating) -> float:
         """Value of a rating for the objective; a dance without room for the stray is worth less than any with it."""
@@ -153,7 +169,7 @@ class Search:
         laid = [one for design in self.designs(figure) if (one := self.rate(design)) is not None]
         every = list[Rated]()
         for one in laid:
-            (self.too_long if self.further(one, self.wish.head_speed) is None else every).append(one)
+            (self.failed.too_long if self.further(one, self.wish.head_speed) is None else every).append(one)
         return sorted(every, key=lambda one: -round(self.value(one.rating), 6))
 
     def designs(self, figure: Figure) -> Iterator[Design]:
@@ -207,7 +223,7 @@ class Search:
     def rate(self, design: Design) -> Rated | None:
         """A design laid out and rated; None if it cannot be laid out."""
         self.budget.afford(RATING_WORK + EDGE_WORK * len(self.ground.edges))
-        self.tried += 1
+        self.spent.tried += 1
         route = laid_out(design, self.needs, self.ways)
         if route is None:
             return None
@@ -281,8 +297,8 @@ class Search:
     def shortest(self) -> tuple[float, Figure] | None:
         """The time of the shortest dance that was found to pass among those that take too long [s], and its figure."""
         times = []
-        for figure in {one.design.figure for one in self.too_long}:
-            ways = [(fewest(one), one) for one in self.too_long if one.design.figure is figure]
+        for figure in {one.design.figure for one in self.failed.too_long}:
+            ways = [(fewest(one), one) for one in self.failed.too_long if one.design.figure is figure]
             for way, one in sorted(ways, key=lambda each: each[0])[:CHECKED]:
                 dance = self.passing(one) if one.rating.stray >= self.wish.stray - RATED_LOW else None
                 if dance is not None:
@@ -305,27 +321,27 @@ class Search:
 
     def passing(self, one: Rated) -> Dance | None:
         """The dance of a design if it passes the quick check; None if not."""
-        self.checked += 1
+        self.spent.checked += 1
         dance = self.dance_on(one.route)
         report = quick_check(dance, venue=self.venue, start=0.0, budget=self.budget, **self.wish.limits)
         if report.passed:
             return dance
-        if self.nearest is None or one.rating.stray > self.nearest[0].rating.stray:
-            self.nearest = (one, report)
+        self.failed.note(one, report)
         return None
 
-    def check_nearest(self, figures: Sequence[Figure]) -> tuple[Rated, Dance] | None:
-        """The best-rated dance of some figures if it passes; if none can be laid out, one that heeds no edge."""
-        every = [one for figure in figures for one in self.ranked(figure)]
+    def check_nearest(self, figures: Sequence[Figure]) -> tuple[Search, Rated, Dance] | None:
+        """The best-rated dance of some figures if it passes; if none can be laid out, one that heeds no edge; with the
+        search that laid it out."""
+        search, every = self, [one for figure in figures for one in self.ranked(figure)]
         if not every:
-            self.ways = LegFinder(self.ground, self.needs, self.budget, heedless=True)
-            designs = (design for figure in figures for design in self._heedless(figure))
-            every = [one for design in designs if (one := self.rate(design)) is not None]
+            search = replace(self, ways=LegFinder(self.ground, self.needs, self.budget, heedless=True))
+            designs = (design for figure in figures for design in search._heedless(figure))
+            every = [one for design in designs if (one := search.rate(design)) is not None]
         if not every:
             return None
         best = max(every, key=lambda one: round(one.rating.stray, 6))
-        dance = self.passing(best)
-        return None if dance is None else (best, dance)
+        dance = search.passing(best)
+        return None if dance is None else (search, best, dance)
 
     def _heedless(self, figure: Figure) -> Iterator[Design]:
         """Designs of the smallest shape of a figure in the middle of the widest free circle."""
@@ -422,6 +438,21 @@ class Search:
         nearest = next(area.nearest for area in areas if area.name == name)
         assert nearest is not None
         return least_clearance(dance, **span), nearest.distance
+
+
+def search_in(
+    venue: Venue, dragon: Dragon, gates: Sequence[Gate], wish: Wish, budget: Budget, spent: Spent | None = None
+) -> Search:
+    """A search in a venue without streets. spent: so far; raises: InvalidValue for a street that is too short"""
+    needs = Needs(dragon, wish.stray, wish.margin)
+    least = 2.0 * (needs.straight_side + needs.free + STREET_LEAST)
+    width = least + 2.0 * (STREET_ROOM - STREET_LEAST)
+    square = venue.square.edges.reshape(-1, 2)
+    if gates:
+        venue = with_streets(venue, gates, (width, least), street_length(needs))
+    ground = FreeGround(venue, (square.min(axis=0), square.max(axis=0)))
+    ways = LegFinder(ground, needs, budget)
+    return Search(venue, dragon, tuple(gates), wish, budget, needs, width, ground, ways, spent or Spent())
 
 
 def way_of(one: Rated, further: int = 0) -> float:

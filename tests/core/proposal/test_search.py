@@ -1,18 +1,19 @@
 """The search: moves never make a rating worse, figures take turns, and what fails is kept for the reason."""
 
+from dataclasses import replace
 from itertools import islice, pairwise
 
 import pytest
 
 from core import Budget, Dragon, Figure, Objective, Venue
-from core.proposal.search import SAME, Search, Wish
+from core.proposal.search import SAME, Wish, search_in
 from tests.support.random_squares import box
 
 HALL = Venue(box("hall", 0, 0, 26, 22), (box("tree", 8, 9, 1, 1),))
 
 
 def search(objective=Objective.TOLERANCE):
-    return Search(HALL, Dragon(8), (), Wish(0.05, 0.0, None, objective), Budget())
+    return search_in(HALL, Dragon(8), (), Wish(0.05, 0.0, None, objective), Budget())
 
 
 @pytest.mark.parametrize("figure", [Figure.RING, Figure.SPIRAL])
@@ -22,7 +23,7 @@ def test_candidates_are_ranked_by_their_value_and_moves_never_make_one_worse(fig
     values = [there.value(one.rating) for one in ranked]
     assert all(a >= b - SAME for a, b in pairwise(values))
     assert there.value(there.improved(ranked[0]).rating) >= values[0]
-    assert there.tried > 8
+    assert there.spent.tried > 8
 
 
 def test_every_figure_comes_once_before_any_comes_twice_and_progress_is_the_share_of_the_figures():
@@ -36,7 +37,7 @@ def test_every_figure_comes_once_before_any_comes_twice_and_progress_is_the_shar
 def test_a_dance_that_fails_is_kept_with_its_report():
     there = search()
     ranked = there.ranked(Figure.RING)
-    there.wish = Wish(0.05, 2.0, None, Objective.TOLERANCE)
-    assert there.passing(ranked[-1]) is None
-    assert there.nearest[1].failures
-    assert there.checked == 1
+    strict = replace(there, wish=Wish(0.05, 2.0, None, Objective.TOLERANCE))
+    assert strict.passing(ranked[-1]) is None
+    assert strict.failed.nearest[1].failures
+    assert strict.spent.checked == 1
