@@ -1,9 +1,8 @@
-"""The target of a request: in absolute form as in origin form, and only at the hosts that the service is."""
+"""Requests only for the hosts that the service is."""
 
 from __future__ import annotations
 
 import re
-from urllib.parse import unquote
 
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Receive, Scope, Send
@@ -13,26 +12,10 @@ from app.service.problems import CLOSE, Refused
 from app.settings import Settings
 from app.wire.fields import short_json
 
-# A target in absolute form, its host and its path.
-ABSOLUTE = re.compile(rb"https?://([^/]+)(/.*)?", re.IGNORECASE)
 # A host with or without a port, its name in group 1.
 HOST = re.compile(r"([a-z0-9.-]+|\[[0-9a-f:.]+\])(?::[0-9]{1,5})?")
 # Calls that answer under any host.
 PROBES = ("/healthz", "/readyz")
-
-
-class OriginForm(Layer):
-    """Takes the target in absolute form as in origin form: GET http://host/turn as GET /turn (RFC 9112, 3.2.2).
-
-    Its host then takes the place of the header Host.
-    """
-
-    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if match := ABSOLUTE.fullmatch(scope["raw_path"]):
-            host, path = match[1], match[2] or b"/"
-            headers = [(b"host", host), *(one for one in scope["headers"] if one[0] != b"host")]
-            scope = {**scope, "raw_path": path, "path": unquote(path.decode("ascii")), "headers": headers}
-        await self.app(scope, receive, send)
 
 
 class Hosts(Layer):

@@ -8,7 +8,7 @@ from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.service.middleware import Layer
-from app.service.negotiation import prefers_job
+from app.service.negotiation import AS_JOB, prefers_job
 from app.service.problems import Refused
 from app.settings import Settings
 from core.errors import Quantity
@@ -30,7 +30,8 @@ class JobCalls(Layer):
         self._places, self._waiting, self._retry_after = asyncio.Semaphore(JOB_CALLS), 0, settings.retry_after
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if not scope["path"].startswith(("/jobs", "/sweeps")) and not prefers_job(Headers(scope=scope)):
+        scope[AS_JOB] = prefers_job(Headers(scope=scope))
+        if not scope[AS_JOB] and not scope["path"].startswith(("/jobs", "/sweeps")):
             return await self.app(scope, receive, send)
         if self._waiting >= JOB_CALLS_WAITING:
             calls = say("{count} waiting calls", count=JOB_CALLS_WAITING)

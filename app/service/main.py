@@ -32,7 +32,7 @@ from app.service.bodies import refuse_query
 from app.service.description import with_values
 from app.service.examples import EXAMPLES
 from app.service.graders import Graders
-from app.service.hosts import Hosts, OriginForm
+from app.service.hosts import Hosts
 from app.service.job_calls import JobCalls
 from app.service.job_metrics import JobMetrics
 from app.service.kept_answers import KeptAnswers
@@ -146,11 +146,9 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         redirect_slashes=False,
         lifespan=_lifespan,
         middleware=[
-            Middleware(OriginForm),
             Middleware(Proxies, settings=settings),
-            *map(Middleware, (layers.RequestId, layers.SafetyHeaders, layers.Spoken, layers.HeadAsGet)),
-            Middleware(layers.Metrics, registry=registry),
-            Middleware(layers.Mistakes),
+            *map(Middleware, (layers.Headers, layers.Spoken, layers.HeadAsGet)),
+            Middleware(layers.Outcomes, registry=registry),
             Middleware(Hosts, settings=settings),
             Middleware(RequestLimits, settings=settings),
             Middleware(JobCalls, settings=settings),

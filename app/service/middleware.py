@@ -1,4 +1,4 @@
-"""Layers around every call: its name, security headers, HEAD, internal errors, counts and times."""
+"""Layers around every call: its name, language and headers, HEAD, internal errors, counts and times."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from urllib.parse import quote
 
 from fastapi import Request
 from prometheus_client import CollectorRegistry, Counter, Histogram
-from starlette.datastructures import Headers
+from starlette.datastructures import Headers as RequestHeaders
 from starlette.requests import ClientDisconnect
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -50,27 +50,30 @@ class Layer:
         await (await http_problem(Request(scope), refused))(scope, receive, send)
 
 
-class RequestId(Layer):
-    """Gives each request a name, in the answer and in the log: that of its client in X-Request-ID, or a new one."""
+class Headers(Layer):
+    """Gives each request a name, in the answer and in the log: that of its client in X-Request-ID, or a new one; and
+    each response the headers of SAFETY, but those that it has: a page that needs another policy brings it."""
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
-        client_name = Headers(scope=scope).get("x-request-id", "")
+        client_name = RequestHeaders(scope=scope).get("x-request-id", "")
         name = client_name if REQUEST_ID.fullmatch(client_name) else uuid.uuid4().hex
         request_id.set(name)
 
-        async def send_with_name(message: Message) -> None:
+        async def send_with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
-                message["headers"] = [*message["headers"], (b"x-request-id", name.encode())]
+                own = dict(message["headers"])
+                safety = [header for header in SAFETY if header[0] not in own]
+                message["headers"] = [*message["headers"], *safety, (b"x-request-id", name.encode())]
             await send(message)
 
-        await self.app(scope, receive, send_with_name)
+        await self.app(scope, receive, send_with_headers)
 
 
 class Spoken(Layer):
     """Answers, also errors, in the language that the client accepts."""
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
-        with speaking(language_of(Headers(scope=scope).get("accept-language"))):
+        with speaking(language_of(RequestHeaders(scope=scope).get("accept-language"))):
             await self.app(scope, receive, send)
 
 
@@ -90,47 +93,12 @@ class HeadAsGet(Layer):
         return await self.app({**scope, "method": "GET", "headers": headers, "is_head": True}, receive, without_body)
 
 
-class SafetyHeaders(Layer):
-    """Adds the headers of SAFETY to a response, but those that it has; a page that needs another policy brings it."""
+class Outcomes(Layer):
+    """Counts requests by path and status, and their times by path; answers 500 where the service itself fails.
 
-    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
-        async def send_with_headers(message: Message) -> None:
-            if message["type"] == "http.response.start":
-                own = {name for name, _ in message["headers"]}
-                message["headers"] = [*message["headers"], *(header for header in SAFETY if header[0] not in own)]
-            await send(message)
-
-        await self.app(scope, receive, send_with_headers)
-
-
-class Mistakes(Layer):
-    """Answers 500 when the service itself fails, keeps the connection, and writes the traceback only to the log.
-
-    A client that ends its connection within its body counts as a 400, although nobody reads the answer.
+    Then it keeps the connection, and writes the traceback only to the log. A client that ends its connection within its
+    body counts as a 400, although nobody reads the answer.
     """
-
-    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
-        started = False
-
-        async def send_and_note(message: Message) -> None:
-            nonlocal started
-            started = True
-            await send(message)
-
-        try:
-            await self.app(scope, receive, send_and_note)
-        except Exception as error:
-            if started:
-                raise
-            if isinstance(error, ClientDisconnect):
-                await self.refuse(Refused(400, "The body ended too soon."), scope, receive, send)
-            else:
-                logger.exception("%s %s failed", scope["method"], quote(scope["path"]))
-                await server_problem()(scope, receive, send)
-
-
-class Metrics(Layer):
-    """Counts requests by path and status, and their times by path."""
 
     def __init__(self, app: ASGIApp, registry: CollectorRegistry) -> None:
         super().__init__(app)
@@ -138,7 +106,7 @@ class Metrics(Layer):
         self.seconds = Histogram("bench_dragon_request_seconds", "Time to answer", ("path",), registry=registry)
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
-        started, status = time.perf_counter(), 500
+        began, status = time.perf_counter(), 0
 
         async def send_and_note(message: Message) -> None:
             nonlocal status
@@ -148,8 +116,16 @@ class Metrics(Layer):
 
         try:
             await self.app(scope, receive, send_and_note)
+        except Exception as error:
+            if status:
+                raise
+            if isinstance(error, ClientDisconnect):
+                await self.refuse(Refused(400, "The body ended too soon."), scope, receive, send_and_note)
+            else:
+                logger.exception("%s %s failed", scope["method"], quote(scope["path"]))
+                await server_problem()(scope, receive, send_and_note)
         finally:
             # The path of the route, so that unknown paths cannot create new labels without end.
             path = getattr(scope.get("route"), "path", "other")
-            self.requests.labels(path, status).inc()
-            self.seconds.labels(path).observe(time.perf_counter() - started)
+            self.requests.labels(path, status or 500).inc()
+            self.seconds.labels(path).observe(time.perf_counter() - began)

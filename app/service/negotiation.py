@@ -12,6 +12,8 @@ from app.service.problems import Refused
 from core.language import Language, say
 
 RESPOND_ASYNC = "respond-async"
+# Entry of the scope of a request: whether its client prefers a job to a wait.
+AS_JOB = "as_job"
 # gzip: level 1 makes 1.8 MB of a trajectory of 3.8 MB in 60 ms; level 6 makes 1.7 MB in 350 ms (2026-11-22).
 GZIP_LEVEL, GZIP_WINDOW = 1, 31
 # End of the tag of a compressed answer: other bytes need another tag.

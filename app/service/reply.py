@@ -16,7 +16,7 @@ from app.service.clients import client_of
 from app.service.deadlines import watched
 from app.service.kept_answers import KeptAnswers
 from app.service.lanes import Lanes
-from app.service.negotiation import GZIPPED, accepted, form_of, gzipped, header_list, prefers_job, tags_in
+from app.service.negotiation import AS_JOB, GZIPPED, accepted, form_of, gzipped, header_list, tags_in
 from app.service.short_tries import SHORT, ShortTries
 from app.service.version import build
 from app.settings import Settings
@@ -74,7 +74,7 @@ class Reply:
         state = request.app.state
         self.request, self.client = request, client_of(request)
         self.settings: Settings = state.settings
-        self._as_job = prefers_job(request.headers)
+        self._as_job: bool = request.scope[AS_JOB]
         self._lanes: Lanes = state.lanes
         self._tries: ShortTries = state.short_tries
         self._answers: KeptAnswers = state.answers
@@ -134,7 +134,8 @@ class Reply:
             "Cache-Control": f"public, max-age={self.settings.cache_seconds}",
             "Vary": "Accept, Accept-Encoding, Accept-Language",
         }
-        known = tags_in(header_list(self.request.headers, "if-none-match") or "")
+        header = header_list(self.request.headers, "if-none-match")
+        known = tags_in(header) if header else []
         for one in (headers["ETag"], f'"{tag}{GZIPPED}"'):
             if one in known:
                 return Response(status_code=304, headers={**headers, "ETag": one})
