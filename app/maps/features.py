@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 
 from app.wire.degrees import GRID_MAX, GeographicOrigin
-from app.wire.geojson import GATE, INNER_SQUARE, LANE, SQUARE, Aside, Thing, outlined
+from app.wire.geojson import GATE, INNER_SQUARE, LANE, SQUARE, TREE_SIDES, Aside, Thing, outlined
 from core import InvalidValue
 from core.errors import Clause, say_value
 from core.language import phrase, say, sense
@@ -42,8 +42,8 @@ COUNTED_MAX = 1_000_000
 ROUND, ROUND_MAX = 0.005, 1e5
 # Radius of a point, and half of the width of a line, without a radius [m].
 POINT_RADIUS, LINE_RADIUS = 0.5, 0.1
-# Sides of the outline of one point, and of a line between two.
-SIDES = (32, 34)
+# Least sides of the outline of one point, and those of a line between two.
+SIDES = (TREE_SIDES, 34)
 # Advice for a map that is too large.
 LEAVE_OUT = phrase("leave out everything that does not belong to the square")
 

@@ -152,7 +152,11 @@ class Report(Answer, of=core.Report, leave=()):
             sentences=[speed_words(result.highest_speed)],
             words=evidence.speed_words(result.highest_speed) if terms.words else None,
         )
-        words = [*way_words(result.first_contact.dance, result.start, result.stop, begins), *day_words(begins, ends)]
+        words = [
+            *way_words(result.first_contact.dance, result.start, result.stop, begins),
+            *day_words(begins, ends),
+            *place.words(),
+        ]
         own = {"failures": failures, "first_contact": contact, "venue": venue, "origin": place.origin}
         own |= {"sentences": words}
         return cls.from_result(result, begins=begins, ends=ends, highest_speed=speed, **own)

@@ -16,12 +16,14 @@ from app.wire.fields import Coordinates
 from app.wire.geojson import (
     METRES,
     SQUARE,
+    TREE_REACH,
     Aside,
     Part,
     Polygon,
     Scale,
     Thing,
     asides_in,
+    is_rough,
     named,
     outlined,
     parts_in,
@@ -30,7 +32,7 @@ from app.wire.geojson import (
 from app.wire.parts import is_cut, whole_areas
 from core import Dragon, InvalidValue, Venue
 from core.errors import Given, Parameter, checked_number, quantities
-from core.language import phrase
+from core.language import phrase, say
 from core.values import Floats, Point
 from core.venue import Ring
 
@@ -107,6 +109,14 @@ class Place:
     things: Sequence[Thing] = ()
     grid: Point | None = None
     asides: Sequence[Aside] = ()
+
+    def words(self) -> list[str]:
+        """How much wider than they are trees count, if there are many."""
+        areas = () if self.venue is None else self.venue.areas
+        rough = sum(is_rough(thing, area.rings[0]) for thing, area in zip(self.things, areas, strict=True))
+        more = math.ceil(100.0 * (TREE_REACH - 1.0))
+        words = phrase("Each of the {count} trees counts as an octagon around it, with corners {more}% further out.")
+        return [say(words, count=rough, more=more)] if rough else []
 
 
 def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dragon: Dragon) -> Place:

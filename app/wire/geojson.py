@@ -23,7 +23,7 @@ from core.names import checked_name
 from core.proposal.gates import STREETS, GateUse
 from core.shapes.engines import Polygons, thickened
 from core.values import Point
-from core.venue import Ring, refuse_many_edges
+from core.venue import EDGES_MAX, Ring, refuse_many_edges
 
 # Name and rings.
 Polygon = tuple[str, tuple[Ring, ...]]
@@ -48,6 +48,10 @@ ASIDES = {GATE: "Point", INNER_SQUARE: "LineString", LANE: "LineString"}
 DEPTH_MAX = 8
 # Radius of a round obstacle, and half of the width of a wall [m].
 RADIUS_MIN, RADIUS_MAX = 1e-3, 1e3
+# Edges of a venue up to which a tree is a polygon as fine as the end of a wall; beyond, trees have only so many sides,
+# which reach by at most TREE_REACH times the radius from the middle [1]: 500 trees fit.
+FINE_EDGES, TREE_SIDES = 2_000, 8
+TREE_REACH = 1.0001 / math.cos(math.pi / TREE_SIDES)
 # Half of the width of a lane: least, that of one without a width, and largest [m]; and most points of its middle line.
 LANE_MIN, LANE_RADIUS, LANE_MAX = 0.25, 1.75, 25.0
 LANE_POINTS_MAX = 1000
@@ -180,14 +184,47 @@ def is_aside(feature: Mapping[str, Any]) -> bool:
 
 
 def outlined(things: Sequence[Thing]) -> list[Polygon]:
-    """The things as polygons; that of a tree or a wall holds all within its radius, and reaches at most 2% further."""
-    outlines = []
-    for name, rings, radius in things:
-        if radius is not None:
-            (outline,) = thickened(np.array(rings[0]), radius)
-            rings = tuple(tuple(map(tuple, ring.tolist())) for ring in outline)
-        outlines.append((name, rings))
+    """The things as polygons; that of a tree or a wall holds all within its radius, and reaches at most 2% further.
+
+    Trees of a venue that has more than FINE_EDGES so reach up to TREE_REACH times their radius.
+    raises: InvalidValue with the number of edges that even so are too many
+    """
+    outlines = [(name, _thick(rings[0], radius) if radius is not None else rings) for name, rings, radius in things]
+    if edge_count(outlines) <= FINE_EDGES:
+        return outlines
+    trees = 0
+    for k, (name, rings, radius) in enumerate(things):
+        if radius is not None and len(set(rings[0])) == 1:
+            outlines[k], trees = (name, _around(rings[0][0], radius)), trees + 1
+    if trees and edge_count(outlines) > EDGES_MAX:
+        rule = "must have at most {most} edges, of which {trees} trees have {sides} each"
+        values = {"most": EDGES_MAX, "trees": trees, "sides": TREE_SIDES}
+        raise InvalidValue("venue", rule, got=edge_count(outlines), **values)
     return outlines
+
+
+def is_rough(thing: Thing, ring: Ring) -> bool:
+    """True for a tree that counts as a polygon of TREE_SIDES, by its outline."""
+    return thing[2] is not None and len(ring) == TREE_SIDES + 1
+
+
+def edge_count(polygons: Sequence[Polygon]) -> int:
+    """Number of edges of all polygons."""
+    return sum(max(len(ring) - 1, 1) for _, rings in polygons for ring in rings)
+
+
+def _thick(line: Ring, radius: float) -> tuple[Ring, ...]:
+    """A polygon around the points of a tree or a wall."""
+    (outline,) = thickened(np.array(line), radius)
+    return tuple(tuple(map(tuple, ring.tolist())) for ring in outline)
+
+
+def _around(middle: Point, radius: float) -> tuple[Ring, ...]:
+    """A polygon of TREE_SIDES around a tree."""
+    (x, y), far = middle, TREE_REACH * radius
+    ways = [math.tau * k / TREE_SIDES for k in range(TREE_SIDES)]
+    ring = [(x + far * math.cos(way), y + far * math.sin(way)) for way in ways]
+    return ((*ring, ring[0]),)
 
 
 def venue_of(polygons: Sequence[Polygon]) -> Venue:

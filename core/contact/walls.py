@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,10 +21,15 @@ from core.kernels import Budget, Ended
 from core.language import say
 from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
+from core.paths.route import Route
 from core.shapes.engines import inside
+from core.shapes.reach import gains
 from core.shapes.rectangles import bench_poses
 from core.values import Floats, Point
 from core.venue import Area, Venue
+
+# Distance of the samples of a route that dismiss far areas, at first, most of them [1], and rounding of places [m].
+SAMPLE_STEP, SAMPLES_MOST, PLACED = 0.5, 20_000, 1e-6
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -175,13 +181,51 @@ def venue_clearance(
     begin, until = dance.span(start, stop)
     frame, strayed = dance.path.frame, checked_stray(stray, dance.dragon)
     share = NEAR_WORK_BUDGET / len(venue.areas)  # each area has its own search: its edges, and its share of work
+    is_beyond = _beyond_reach(dance, margin, strayed)
     areas = []
     for area in venue.areas:
-        edges = own_edges(area, frame)
-        sought = SearchInput(dance.dragon, dance.path, margin, edges, stray=strayed, timing=dance.clock.rounding(until))
-        search = ContactSearch(sought, work=share, budget=budget)
-        areas.append(_area_clearance(search, area.name, dance, (begin, until), nearest))
+        clearance = AreaClearance(area.name, Outcome.CLEAR, None, None, None, None, None)
+        is_clear = is_beyond is not None and is_beyond(area)
+        if nearest or not is_clear:
+            sought = SearchInput(
+                dance.dragon,
+                dance.path,
+                margin,
+                own_edges(area, frame),
+                stray=strayed,
+                timing=dance.clock.rounding(until),
+            )
+            search = ContactSearch(sought, work=share, budget=budget)
+            if not is_clear:
+                clearance = _area_clearance(search, area.name, dance, (begin, until))
+            if nearest:
+                clearance = replace(clearance, nearest=_nearest(search, dance, (begin, until)))
+        areas.append(clearance)
     return VenueClearance(_misplaced(dance, venue, begin), tuple(areas))
+
+
+# Every point of a bench is within r = hypot(max(chord / 2, overhang), width / 2) of one of its two handles, and a stray
+# moves it by at most its gain times that. Handles stand on the route, and no place of it is further from the nearest of
+# samples h apart than h / 2. So a disc around an area is out of reach if its middle is further than r, the stray, the
+# margin, h / 2 and its radius from all samples.
+def _beyond_reach(dance: Dance, margin: float, stray: float) -> Callable[[Area], bool] | None:
+    """Whether no bench comes near an area on a whole route, by a disc around the area; None on other paths."""
+    route, dragon = dance.path, dance.dragon
+    if not isinstance(route, Route) or route.tail_begin is None:
+        return None
+    count = max(2, min(SAMPLES_MOST, math.ceil((route.end - route.begin) / SAMPLE_STEP) + 1))
+    samples, step = np.linspace(route.begin, route.end, count, retstep=True)
+    points = route.position(samples)
+    far = np.hypot(np.maximum(0.5 * dragon.chords, dragon.overhangs), 0.5 * dragon.widths) + stray * gains(dragon)
+    least = float(far.max()) + margin + 0.5 * float(step) + route.slide + PLACED
+
+    def is_beyond(area: Area) -> bool:
+        corners = np.array(area.rings[0])
+        middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
+        radius = np.hypot(*(corners - middle).T).max()
+        return bool(np.hypot(*(points - middle).T).min() > least + radius)
+
+    return is_beyond
 
 
 def own_edges(area: Area, frame: Frame) -> Floats:
@@ -189,14 +233,9 @@ def own_edges(area: Area, frame: Frame) -> Floats:
     return frame.back(area.edges.reshape(-1, 2, 2)).reshape(-1, 4)
 
 
-def _area_clearance(
-    search: ContactSearch, name: str, dance: Dance, span: tuple[float, float], with_nearest: bool
-) -> AreaClearance:
-    """The benches and one area between two times [s]."""
+def _area_clearance(search: ContactSearch, name: str, dance: Dance, span: tuple[float, float]) -> AreaClearance:
+    """The first time within the margin of an area between two times [s]."""
     (begin, until), clock = span, dance.clock
-    first, last = clock.travel(begin), clock.travel(until)
-    fold = dance.end.theta if dance.nears_fold(until) else None
-    last = last if fold is None else before_fold(last)
     result, certain = first_met(search, dance, span)
     outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
     overlapping = None
@@ -212,13 +251,15 @@ def _area_clearance(
         time = begin if at_start else max(clock.time(travel), begin)
         bracket = None if at_start else (max(clock.time(result.proven), begin), clock.time(result.touching))
         bench, (point, _, gap) = result.pair[0], _witnesses(search, travel, result.pair, dance.path.frame)
-    nearest = _nearest(search, dance, (begin, first, last), fold) if with_nearest else None
-    return AreaClearance(name, outcome, time, bracket, bench, point, nearest, gap, overlapping)
+    return AreaClearance(name, outcome, time, bracket, bench, point, None, gap, overlapping)
 
 
-def _nearest(search: ContactSearch, dance: Dance, span: tuple[float, float, float], fold: float | None) -> Nearest:
-    """Smallest distance of a search between two travels [m]. span: time [s] and travel of the first, the last one"""
-    clock, (begin, first, last) = dance.clock, span
+def _nearest(search: ContactSearch, dance: Dance, span: tuple[float, float]) -> Nearest:
+    """Smallest distance of a search between two times [s]."""
+    (begin, until), clock = span, dance.clock
+    fold = dance.end.theta if dance.nears_fold(until) else None
+    last = clock.travel(until)
+    first, last = clock.travel(begin), last if fold is None else before_fold(last)
     (distance, travel, pair), at_least = least_on(Stretch(search, (first, last), clock.slowest, fold))
     witnesses = _witnesses(search, travel, pair, dance.path.frame)
     return Nearest(distance, at_least, max(clock.time(travel), begin), pair[0], *witnesses[:2])

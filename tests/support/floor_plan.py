@@ -12,7 +12,7 @@ from tests.support.asking import box
 # square of the site [m].
 WALLS = "墙, walls"
 TREES = 6
-EDGES = {"A-HATCH": 34 * 1200, "A-FURN": 34 * 180 + 4 * 180, WALLS: 480, "TREES": 32 * TREES, "SITE": 4}
+EDGES = {"A-HATCH": 34 * 1200, "A-FURN": 34 * 180 + 4 * 180, WALLS: 480, "TREES": 8 * TREES, "SITE": 4}
 SITE = [[0.0, 0.0], [80.0, 0.0], [80.0, 50.0], [0.0, 50.0]]
 
 
@@ -56,11 +56,11 @@ def thing(properties, kind, *places):
 
 
 def town(scale=(1.0, 1.0), middle=(0.0, 0.0)):
-    """A map as GeoJSON of a square with trees beside 600 houses and 20 kerbs, around (0, 0)."""
+    """A map as GeoJSON of a square with trees beside 1300 houses and 20 kerbs, around (0, 0)."""
     features = [
         area({"Layer": "SITE", "name": "square"}, -40, -25, 80, 50),
         *(thing({"role": "tree", "radius": 0.4}, "Point", (-30 + 10 * k, -17)) for k in range(TREES)),
-        *(area({"layer": WALLS}, -38 + k % 30 * 2, 11 + k // 30 * 0.5, 1, 0.3) for k in range(600)),
+        *(area({"layer": WALLS}, -38 + k % 30 * 2, 11 + k // 30 * 0.5, 1, 0.3) for k in range(1300)),
         *(thing({"name": "kerb"}, "LineString", (k, 5), (k + 1, 5), (k + 1, 6)) for k in range(20)),
     ]
     for one in features:

@@ -22,7 +22,7 @@ def test_a_map_of_more_than_a_venue_may_have_is_read_by_layers_or_an_area(data):
     """The layer of a thing is its property, or else its role, its name or its shape."""
     layers = {one.name: one.edges for one in drawn_layers(data)}
     assert list(layers) == [WALLS, "kerb", "obstacle", "SITE"]
-    assert (layers[WALLS], layers["obstacle"], layers["SITE"]) == (4 * 600, 32 * TREES, 4)
+    assert (layers[WALLS], layers["obstacle"], layers["SITE"]) == (4 * 1300, 8 * TREES, 4)
     with pytest.raises(InvalidValue, match=f"got {sum(layers.values())}: read only some layers") as refusal:
         places_of(data, None)
     assert refusal.value.field == "file"

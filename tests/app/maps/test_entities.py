@@ -422,7 +422,7 @@ def test_many_edges_are_refused_before_they_are_compared(square):
     for place in (0.0, 200.0):
         space.add_lwpolyline(rounded(16_000, place), close=True)
     begun = time.process_time()
-    with pytest.raises(InvalidValue, match=f"2000 edges, got {32_000 + 4 * square}: .*, or draw it with fewer points"):
+    with pytest.raises(InvalidValue, match=f"5000 edges, got {32_000 + 4 * square}: .*, or draw it with fewer points"):
         read(space)
     assert time.process_time() - begun < 10.0  # It took 20 s.
 

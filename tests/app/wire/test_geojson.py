@@ -100,9 +100,33 @@ def test_heights_and_edges_without_length_are_passed_over():
 
 
 def test_as_many_edges_as_the_limit_are_read_and_one_more_is_refused():
-    assert len(read(polygon(circle(2_000))).square.edges) == 2_000
-    with refused("venue", got=2_001, most=2_000):
-        read(polygon(circle(2_001)))
+    assert len(read(polygon(circle(5_000))).square.edges) == 5_000
+    with refused("venue", got=5_001, most=5_000):
+        read(polygon(circle(5_001)))
+
+
+def with_trees(count):
+    places = [[3 * (k % 30), 3 * (k // 30)] for k in range(count)]
+    trees = [
+        {"type": "Feature", "properties": {"radius": 0.5}, "geometry": {"type": "Point", "coordinates": at}}
+        for at in places
+    ]
+    return features({"type": "Feature", "properties": {}, "geometry": polygon(RING)}, *trees)
+
+
+@pytest.mark.parametrize("count, sides, reach", [(60, 32, 1.02), (500, 8, 1.083)])
+def test_trees_are_finer_polygons_where_there_are_few_of_them(count, sides, reach):
+    trees = read(with_trees(count)).obstacles
+    assert {len(tree.edges) for tree in trees} == {sides}
+    ring = np.array(trees[-1].rings[0])
+    middle = [3 * ((count - 1) % 30), 3 * ((count - 1) // 30)]
+    assert np.hypot(*(0.5 * (ring[1:] + ring[:-1]) - middle).T).min() >= 0.5
+    assert np.hypot(*(ring - middle).T).max() <= 0.5 * reach
+
+
+def test_too_many_trees_are_told_from_other_edges():
+    with refused("venue", got=5_603, most=5_000, trees=700, sides=8):
+        read(with_trees(700))
 
 
 @pytest.mark.parametrize(
@@ -112,6 +136,6 @@ def test_as_many_edges_as_the_limit_are_read_and_one_more_is_refused():
 )
 def test_too_many_rings_are_refused_before_their_validity_is_judged(geometry):
     began = time.process_time()
-    with refused("venue", most=2_000):
+    with refused("venue", most=5_000):
         read(geometry)
     assert time.process_time() - began < AT_ONCE

@@ -9,6 +9,7 @@ import shapely
 from core import (
     Arc,
     Area,
+    Budget,
     Dance,
     Dragon,
     FailureKind,
@@ -69,6 +70,22 @@ def test_a_tree_beside_the_last_metres_before_a_fold_is_seen(stop):
     assert_near([tree.nearest.distance, *tree.nearest.wall], [TREE_DISTANCE, *TREE.rings[0][0]], 1e-8)
     assert tree.nearest.at_least <= TREE_DISTANCE
     assert_near(tree.nearest.time, TREE_TIME, 1e-3)
+
+
+def test_far_trees_cost_a_quick_answer_nothing_and_near_ones_are_told_from_them():
+    places = np.random.default_rng(70).uniform((-60, -7), (60, 7), (60, 2)).tolist()
+    trees = tuple(boxed(f"tree {k}", x - 0.2, y - 0.2, x + 0.2, y + 0.2) for k, (x, y) in enumerate(places))
+    dance, far = Dance(Dragon(12), STRAIGHT), [boxed(f"{k}", k, 5, k + 0.4, 5.4) for k in range(-50, 50)]
+    venue = Venue(HALL, trees)
+    quick, whole = (venue_clearance(dance, venue, stray=0.05, nearest=nearest).areas for nearest in (False, True))
+    assert [area.outcome for area in quick] == [area.outcome for area in whole]
+    assert len({area.outcome for area in quick}) > 1
+    spent = []
+    for obstacles in ((), far):
+        budget = Budget(1e9)
+        venue_clearance(dance, Venue(HALL, tuple(obstacles)), nearest=False, budget=budget)
+        spent.append(1e9 - budget.left)
+    assert spent[0] == spent[1] > 0.0
 
 
 @pytest.mark.parametrize("before", [1.0, 1e-2, 1e-4, 1e-6])
