@@ -6,11 +6,12 @@ import { $, $$, make, onClick } from "./elements.js";
 import { announce } from "./overlays.js";
 import { crossesItself, extent, isInside, onBorder, rectangle, streetLength } from "./square.js";
 import { between, say } from "./text.js";
+import { Stroke } from "./stroke.js";
 import { decimetres, nearestLeg, squared, thingUnder, thingsWithin } from "./touch.js";
 
 /** What each tool does. @type {Phrases} */
 const HELPS = {
-  path: "Tap the picture to extend the path, tap the path to insert a point, drag points and things to move them.",
+  path: "Draw on the picture or tap it to extend the path, tap the path to insert a point, drag points and things to move them. Two fingers or the middle button of a mouse move the picture.",
   area: "Tap the corners of the square one after another; drag them to move them.",
   block: "Tap the corners of an obstacle one after another. Choose Obstacle again for the next one.",
   circle: "Tap where a tree, a well or a person is; its radius is in the list “Square and obstacles”.",
@@ -68,6 +69,8 @@ export class Editor {
   /** A mouse stands beside a keyboard. */
   #hasKeys = matchMedia("(pointer: fine)");
   #drag = null;
+  /** @type {Stroke} */
+  #stroke;
 
   /**
    * course(): the drawn path from the service; chosen(): called when another item is edited
@@ -93,6 +96,14 @@ export class Editor {
     canvas.addEventListener("pointermove", (event) => this.#pull(event));
     for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, (event) => this.#drop(event));
     addEventListener("keydown", (event) => this.#command(event));
+    this.#stroke = new Stroke(dance, (points) => this.#extend(points));
+  }
+
+  /** Add the points of a stroke at the end of the path. */
+  #extend(points) {
+    this.#last = null;
+    this.steps.take(points.reduce((drawing, point) => inserted(drawing, null, drawing.points.length, decimetres(point)), this.#drawing));
+    this.chosen();
   }
 
   get #drawing() {
@@ -430,6 +441,7 @@ export class Editor {
       event.stopPropagation();
       return this.#carry(event, null);
     }
+    if (item === null && !isSeveral && !event.button && this.tool === "path" && !this.hasFigure) this.#stroke.begin(event);
     if (item === null ? !isSeveral : item === this.item && this.#isDrawing && this.#points.length > 1) return;
     event.stopPropagation();
     if (item === null) return this.#carry(event, "frame");

@@ -18,7 +18,7 @@ const VERDICTS = {
 const NEXT = {
   propose: [phrase("Propose a dance"), phrase("The square is drawn. “Propose a dance” finds dances that fit into it; or draw a path yourself.")],
   choose: [phrase("Choose a dance"), phrase("Show one of the dances that were found: its answers stand here.")],
-  path: [phrase("Draw a path"), phrase("Tap the picture at points of the head's path: two points make a path.")],
+  path: [phrase("Draw a path"), phrase("Draw the head's path on the picture with a finger or the mouse, or tap its points: two make a path.")],
 };
 const OUTCOMES = { passes: ["clear", "✓"], fails: ["contact", "✕"], undecided: ["undecided", "?"] };
 const DECIMALS = 6;

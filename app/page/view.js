@@ -16,6 +16,8 @@ const LOW = 16;
 const within = (scale) => Math.min(Math.max(scale, SCALE_MIN), SCALE_MAX);
 
 export class View {
+  /** True while one pointer does something else than to move the view. */
+  stays = false;
   #pointers = new Map();
   #travel = 0;
 
@@ -158,7 +160,7 @@ export class View {
     this.#pointers.set(event.pointerId, now);
     if (this.#travel < CLICK_TRAVEL) return;
     const other = [...this.#pointers].find(([id]) => id !== event.pointerId)?.[1];
-    if (!other) return this.pan(dx, dy);
+    if (!other) return this.stays || this.pan(dx, dy);
     const spread = (point) => Math.hypot(point[0] - other[0], point[1] - other[1]) || 1;
     this.zoom(spread(now) / spread(before), (now[0] + other[0]) / 2, (now[1] + other[1]) / 2);
     this.pan(dx / 2, dy / 2);

@@ -316,6 +316,7 @@ def test_a_finger_drags_points_and_trees_on_a_phone_and_nothing_is_cut_off(open_
     assert not person.overflows(390)
     assert person.findings() == []
     _a_tree_goes_upwards_as_far_as_the_finger(person.opens(S_CURVE))
+    _a_stroke_draws_a_path_to_which_the_next_one_is_added(person.opens("?door=village&path=route&benches=2"))
 
 
 def _a_tree_goes_upwards_as_far_as_the_finger(person):
@@ -331,6 +332,15 @@ def _a_tree_goes_upwards_as_far_as_the_finger(person):
     before = tree()
     person.presses("[data-tool=circle]").sees({".knot": 0}).swipes(x, y, 0, -80)
     assert tree() == pytest.approx(before - 80, abs=3)
+
+
+def _a_stroke_draws_a_path_to_which_the_next_one_is_added(person):
+    person.presses("#invite .main").settles()
+    canvas = person.box("#canvas")
+    x, y = (canvas[at] + canvas[size] / 2 for at, size in (("x", "width"), ("y", "height")))
+    person.swipes(x - 80, y, 120, -60)
+    person.sees({".knot": 2}).swipes(x + 80, y, 0, 60)
+    assert len(points(person.sees({".knot": 4}))) == 4
 
 
 @thorough
