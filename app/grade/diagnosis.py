@@ -40,6 +40,7 @@ from app.grade.numbers import explained, rounded_right
 from app.grade.outside import Outside, outside_of, same_cells, without
 from app.grade.pairs import pairs
 from app.grade.rings import wrong_ring
+from app.grade.seen_paths import other_paths
 from app.grade.shortcuts import Finding
 from app.grade.words import Note, Values, note, word
 from core import Budget, Dance
@@ -138,18 +139,19 @@ def _outside(
 
 
 def _over_time(position: JudgedSheet | None, speed: JudgedSheet | None, budget: Budget) -> list[Finding]:
-    model, findings, quotients = None, [], []
+    model, findings, quotients, is_known = None, [], [], True
     if position and position.is_off:
         seen = _seen(position)
         two = pairs(position.dance, position.times, seen)
-        if best := best_fit(position, geometries(position.dance, position.times, seen), budget, two):
+        single = (models(position.dance, position.times, seen) for models in (geometries, other_paths))
+        if best := best_fit(position, chain.from_iterable(single), budget, two):
             model = best.model
             findings += findings_of(best, position)
         elif ring := wrong_ring(position):
             findings.append(ring)
         else:
-            quotients = list(_quotients_of(position))
-    return _with_speeds(findings, speed, budget, model, quotients) if speed else findings
+            quotients, is_known = list(_quotients_of(position)), False
+    return _with_speeds(findings, speed, budget, model, quotients, is_known=is_known) if speed else findings
 
 
 def _with_speeds(
@@ -158,10 +160,13 @@ def _with_speeds(
     budget: Budget,
     wrong: Model | None = None,
     others: Iterable[Model] = (),
+    *,
+    is_known: bool = True,
 ) -> list[Finding]:
     """Findings on the places, and those on the speeds beside them.
 
     wrong: the error in the places, which the first finding tells; others: further models of the speeds
+    is_known: False for places that are wrong for no known reason: their motion gives speeds like those of another error
 
     Speeds of the same motion are no error of their own, but wrong all the same. Beside a wrong motion, others are named
     without a known error too.
@@ -172,7 +177,7 @@ def _with_speeds(
     if matches(speed, model):
         same = fit(speed, model)
         return [also(findings[0], same, speed), *findings[1:]] if wrong and same.explains else findings
-    models = chain(_speed_models(speed, model.motion, wrong), others)
+    models = chain(_speed_models(speed, model.motion, wrong) if is_known else speed_errors(model.motion), others)
     if best := best_fit(speed, models, budget, _negated_beside(model.motion)):
         return [*findings, *findings_of(best, speed)]
     return [*findings, _of_no_motion(speed, wrong)] if wrong else findings

@@ -76,6 +76,7 @@ def worst_of(verdicts: Iterator[Rating]) -> Rating:
 class JudgedSheet:
     """The judgement of a sheet.
 
+    dance: the right one
     values, wanted: the student's and the right numbers (T, H, C) [m, m/s]; handles (H,), times (T,) [s]
     decimals: number to which the numbers are right, if they are rounded; written: decimals that its numbers usually
         have; digits: those with which each number counts (T, H, C)
@@ -85,6 +86,7 @@ class JudgedSheet:
 
     table: SheetTable
     workbook: Workbook
+    dance: Dance
     verdict: Rating
     decimals: int | None
     written: int
@@ -103,11 +105,6 @@ class JudgedSheet:
     def title(self) -> str | Note:
         """Title of the sheet, or what it holds."""
         return self.table.title or note(SHEETS[self.table.kind])
-
-    @property
-    def dance(self) -> Dance:
-        """The dance of the workbook."""
-        return dance_of(self.workbook)
 
     @property
     def components(self) -> tuple[int, ...]:
@@ -202,10 +199,15 @@ def workbook_of(tables: list[SheetTable], name: str) -> Workbook:
     return Workbook.RESULT1
 
 
-def judged(table: SheetTable, workbook: Workbook, decimals_beside: int = 0) -> JudgedSheet:
-    """The judgement of one table. decimals_beside: those of the numbers of its file"""
-    instants = _instants(table)
-    return max((_judged(table, workbook, decimals_beside, times) for times in instants), key=lambda one: one.right)
+def judged(table: SheetTable, workbook: Workbook, decimals_beside: int = 0, dance: Dance | None = None) -> JudgedSheet:
+    """The judgement of one table.
+
+    decimals_beside: those of the numbers of its file; dance: the right one, by default that of the workbook
+    """
+    right, instants = dance or dance_of(workbook), _instants(table)
+    return max(
+        (_judged(table, workbook, right, decimals_beside, times) for times in instants), key=lambda one: one.right
+    )
 
 
 def _instants(table: SheetTable) -> list[Floats]:
@@ -216,10 +218,10 @@ def _instants(table: SheetTable) -> list[Floats]:
     return [right, table.times] if abs(table.times[0] - right[0]) <= RIGHT else [right]
 
 
-def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: Floats) -> JudgedSheet:
+def _judged(table: SheetTable, workbook: Workbook, dance: Dance, decimals_beside: int, times: Floats) -> JudgedSheet:
     notes = [*table.notes]
-    is_on_path = (times >= EARLIEST) & (times <= dance_of(workbook).end.time)
-    motion = of_dance(dance_of(workbook))(np.where(is_on_path, times, 0.0))[..., list(COMPONENTS[table.kind])]
+    is_on_path = (times >= EARLIEST) & (times <= dance.end.time)
+    motion = of_dance(dance)(np.where(is_on_path, times, 0.0))[..., list(COMPONENTS[table.kind])]
     values = table.values * _scale(table, motion, notes)
     is_vague = 0 < decimals_beside < DECIMALS_OF_CONTEST and table.shown is None and _is_one_number(values)
     has_fewer = is_vague and decimals_beside > DECIMALS[-1]
@@ -264,6 +266,7 @@ def _judged(table: SheetTable, workbook: Workbook, decimals_beside: int, times: 
     return JudgedSheet(
         table,
         workbook,
+        dance,
         _rating(present, cells, largest, is_rounded=decimals is not None),
         decimals=None if largest <= RIGHT else decimals,
         written=written,

@@ -9,6 +9,7 @@ error explains a sheet.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from itertools import chain
 
@@ -18,6 +19,7 @@ from app.grade.chains import equal_arcs
 from app.grade.expected import Motion, of_dance
 from app.grade.geometry import (
     MIRRORS,
+    OTHER_LENGTHS,
     Mirror,
     Model,
     SheetClues,
@@ -29,8 +31,9 @@ from app.grade.geometry import (
     shifted_rows,
     shifted_time,
 )
+from app.grade.seen_paths import other_paths
 from app.grade.words import Values
-from core import Dance
+from core import BenchDragonError, Dance, Dragon
 from core.values import Floats
 
 # Most benches by which rows are shifted beside another error.
@@ -50,12 +53,17 @@ def pairs(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]:
     for error, mirror, values in _mirrors():
         # A mirror is its own inverse.
         lead = None if seen.lead is None else seen.lead @ mirror[:2, :2]
-        starts = other_starts(dance, times, replace(seen, lead=lead))
-        for one in (*others, *starts):
+        clues = replace(seen, lead=lead)
+        for one in (*others, *other_starts(dance, times, clues), *other_paths(dance, times, clues)):
             yield Model(error, mirrored(one.motion, mirror), values, beside=one)
     for length in lengths:
         for one in _shifted_rows(length.motion):
             yield replace(one, beside=length)
+    for error, sizes in OTHER_LENGTHS.items():
+        with suppress(BenchDragonError):  # a turn too tight for these lengths
+            with_lengths = replace(dance, dragon=Dragon(dance.dragon.benches, **sizes))
+            for one in other_paths(with_lengths, times, seen):
+                yield replace(one, beside=Model(error, one.motion))
     for one in other_starts(dance, times, seen):
         if one.shift is not None:
             for length in lengths:

@@ -32,6 +32,7 @@ from app.grade.names import readable_name
 from app.grade.numbers import CERTAIN, graded_number
 from app.grade.reading import ZIP, grids_of
 from app.grade.rubric import rubric_of
+from app.grade.seen_paths import judged_by_turn
 from app.grade.sheets import tables_of
 from app.grade.shortcuts import UNITS, Finding, right_answer
 from app.grade.typed_number import plain_number
@@ -252,7 +253,7 @@ def _graded(name: str, data: bytes, budget: Budget) -> FileAnswer:
         raise UnreadableTable(note("no_workbook") if has_workbook_ending and not data.startswith(ZIP) else known)
     workbook = workbook_of(tables, PurePath(name).stem)
     decimals = decimals_of_file([table.values for table in tables])
-    judgements = [judged(table, workbook, decimals) for table in tables]
+    judgements, own = judged_by_turn([judged(table, workbook, decimals) for table in tables], decimals)
     findings = diagnosed(judgements, budget)
     judgements = with_errors(judgements, {kind for one in findings for kind in one.kinds})
     certain = [one for one in findings if one.chance <= CERTAIN]
@@ -266,7 +267,9 @@ def _graded(name: str, data: bytes, budget: Budget) -> FileAnswer:
     verdict = worst_of(sheet.verdict for sheet in sheets)
     if verdict is Rating.WRONG and not findings:
         notes.append(why_unexplained(judgements))
-    if workbook is Workbook.RESULT4 and verdict is Rating.WRONG and {one.error for one in findings} <= OTHER_TURN:
+    if own:
+        notes.append(own)
+    elif workbook is Workbook.RESULT4 and verdict is Rating.WRONG and {one.error for one in findings} <= OTHER_TURN:
         notes.append(note("other_turn", length=f"{right_answer('turn_length'):.4f}"))
     return FileAnswer(
         file=name,

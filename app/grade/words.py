@@ -92,6 +92,8 @@ WORDS: Phrases = ERRORS | PAPER | {f"name_{code}": name for code, name in NAMES.
     "missing": "Cells that are missing: {count} (handles without any: {handles}, instants without any: {times}).",
     "no_sheet": "The sheet of the {kind} is missing, or has no numbers.",
     "other_turn": "The numbers were compared with the turn of 2 : 1 from the edge of the circle, which is {length} m long. Question 4 allows other turns: if the team states another one, these numbers may be right for it.",
+    "own_turn": "The sheets were judged by the turn that the head's places show: it begins {entry} m and ends {exit} m from the centre, its arcs have the ratio {ratio} : 1, and it is {length} m long. Question 4 allows it, if the team states these numbers.",
+    "own_turn_touches": "The head's places show a turn of the team's own, which begins {entry} m and ends {exit} m from the centre and has arcs of the ratio {ratio} : 1. On it benches {a} and {b} touch at {time} s, so it cannot be danced, and the sheets were judged by the turn of 2 : 1 from the edge of the circle.",
     "position": "positions",
     "speeds": "speeds",
     "speed": "maximum speed of the head",

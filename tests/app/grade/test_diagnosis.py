@@ -1,4 +1,4 @@
-"""Results with one known error each are diagnosed; five with errors of no known kind are not."""
+"""Results with one known error each are diagnosed; four with errors of no known kind are not."""
 
 import itertools
 from functools import cache, partial
@@ -11,7 +11,7 @@ import pytest
 from app.grade.decimals import digits_of
 from app.grade.limits import TIGHTER_TURN
 from app.grade.report import graded
-from core import Budget, Dragon
+from core import Budget, Dance, Dragon, Spiral
 from tests.campaigns.hunt_grades import hunt
 from tests.support import students
 from tests.support.depth import further, often
@@ -46,6 +46,8 @@ KNOWN = {
     "central_difference": lambda: first(students.gradient(), whole=True),
     "rounded_early": lambda: first(spiral(pitch=0.0875 * 2.0 * np.pi)),
     "other_start": lambda: first(spiral(start_turns=15.0)),
+    "other_pitch": lambda: first(spiral(pitch=0.6, start_turns=8.8 / 0.6)),
+    "other_speed": lambda: first(students.of(Dance(Dragon(), Spiral(), 1.2), SPIRAL_TIMES)),
     "ratio_inverted": lambda: fourth(turn(ratio=0.5)),
     "other_entry_radius": lambda: fourth(turn(turning_radius=4.9)),
     "arcs_not_tangent": lambda: students.lines(students.semicircles(FEWER), FEWER),
@@ -60,7 +62,6 @@ KNOWN = {
 UNKNOWN = {
     "one cell": lambda: first(one_cell()),
     "noise": lambda: first(noise()),
-    "another pitch": lambda: first(spiral(pitch=0.6, start_turns=8.8 / 0.6)),
     "some handles swapped": lambda: first(swapped()),
     "contact: moved": lambda: students.contact_workbook((spiral(AT_CONTACT)[0] + 0.05, spiral(AT_CONTACT)[1])),
 }
@@ -163,14 +164,38 @@ def errors(result):
     return [one.error for one in result.diagnosis]
 
 
-def test_a_shorter_turn_is_not_accused_of_what_question_4_allows():
-    """The shortest turn known: its speeds jump, and it is none of the errors."""
+OWN_TURNS = {
+    "deeper": {"entry_radius": 4.35},
+    "of another ratio": {"ratio": 1.4},
+    "to another exit": {"ratio": 1.2, "entry_radius": 4.3, "exit_radius": 4.4},
+}
+
+
+@pytest.mark.parametrize("decimals", [6, 4])
+@pytest.mark.parametrize("own", often(OWN_TURNS, ("to another exit",)))
+def test_a_turn_that_question_4_allows_is_judged_by_itself(own, decimals):
+    results = rounded(turn(TURN_TIMES, **OWN_TURNS[own]), decimals)
+    result = graded("result4.csv", lines(results, TURN_TIMES), Budget())
+    assert (result.verdict, result.diagnosis) == ("right" if decimals == 6 else "rounded", [])
+    sizes = {"ratio": 2.0, "entry_radius": 4.5} | OWN_TURNS[own]
+    leaving = sizes.get("exit_radius", sizes["entry_radius"])
+    words = f"begins {sizes['entry_radius']:g} m and ends {leaving:g} m from the centre, its arcs have the ratio "
+    assert words + f"{sizes['ratio']:g} : 1" in result.notes[-1]
+
+
+def test_wrong_speeds_on_a_turn_of_its_own_are_wrong():
+    position, speed = turn(FEWER, entry_radius=4.35)
+    assert errors(graded("result4.csv", lines((position, np.ones_like(speed)), FEWER), Budget())) == ["equal_speeds"]
+
+
+def test_the_shortest_turn_known_is_not_accused_of_what_question_4_allows():
+    """Its speeds jump, and it is none of the errors."""
     ratio, entry, leaving = TIGHTER_TURN
     shorter = turn(TURN_TIMES, ratio=ratio, entry_radius=entry, exit_radius=leaving)
     result = graded("result4.csv", lines(shorter, TURN_TIMES), Budget())
-    assert "Question 4 allows other turns" in result.notes[-1]
+    assert result.verdict == "rounded"
     assert result.diagnosis == []
-    assert {one.met for one in result.rubric} == {None}
+    assert "Question 4 allows it" in result.notes[-1]
 
 
 def test_a_wrong_instant_is_traced_to_its_steps():
@@ -352,8 +377,8 @@ def test_quotients_are_reported_beside_positions_with_noise(size):
 
 def test_quotients_of_the_own_places_are_reported():
     """Whatever is wrong with the places."""
-    position, speed = spiral(pitch=0.6, start_turns=8.8 / 0.6)
-    position = np.round(position, 6)
+    position, speed = spiral()
+    position = np.round(position * [1.0, 1.01], 6)
     speed[1:] = np.linalg.norm(np.diff(position, axis=0), axis=-1)
     [one] = grade(students.lines((position, speed), SPIRAL_TIMES)).diagnosis
     assert one.error == "backward_difference"
@@ -469,6 +494,7 @@ TWO = {
     ("turned", "head_as_body"): lambda times, dance: turned(dance(times, dragon=Dragon(head_length=2.2)), 180.0),
     ("shifted_rows", "length_for_chord"): lambda times, dance: shifted(dance(times, dragon=Dragon(overhang=0.0))),
     ("shifted_time", "length_for_chord"): lambda times, dance: dance(times - 1.0, dragon=Dragon(overhang=0.0)),
+    ("other_pitch", "length_for_chord"): lambda times, dance: dance(times, pitch=0.5, dragon=Dragon(overhang=0.0)),
     ("speeds_negated", "equal_speeds"): lambda times, dance: (dance(times)[0], -np.ones((len(times), 224))),
 }
 
@@ -487,5 +513,5 @@ def test_two_errors_in_the_same_numbers_are_both_named(two, decimals):
     times = SPIRAL_TIMES[1::60]
     results = rounded(TWO[two](times, spiral), decimals)
     assert errors(grade(students.lines(results, times))) == list(two)
-    if "shifted_time" not in two:
+    if not {"shifted_time", "other_pitch"} & {*two}:
         assert errors(grade_contact(rounded(TWO[two](AT_CONTACT, spiral), decimals))) == list(two)
