@@ -81,7 +81,7 @@ def show_job(job: Name, data: Data = None, url: Url = "", token: Token = "", jso
         return
     table = Table(box=None, show_header=False, pad_edge=False)
     for name, value in status.items():
-        if value is not None and name not in ("links", "type", "problem"):
+        if value is not None and name not in ("links", "type", "problem", "sentence"):
             table.add_row(say(LABELS.get(name, name)), say(STATES[value]) if name == "status" else str(value))
     show.print_parts(table)
 

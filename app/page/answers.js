@@ -61,11 +61,9 @@ export const instantWords = (time, { answer, end }) => formatNumber(time === end
 /** answer: of /collision-time */
 export const showFirstContact = (box, answer) => show(box, answer, null, stateOf(answer));
 
-/** fastest: highest_speed of /check; null in a run to a fold */
-export function showHighestSpeed(box, fastest) {
-  const words = say("Grows without bound");
-  const why = say("Near a fold, the speed of the handle behind it grows as one over the square root of the remaining way.");
-  show(box, fastest ?? { words: { title: say("Highest speed"), headline: words, exact: words, notes: [why] }, sentences: [say("towards the fold, where a bench cannot follow any more")] });
+/** answer: of /check; a run to a fold has no highest speed */
+export function showHighestSpeed(box, { highest_speed: fastest, first_contact: { words } }) {
+  show(box, fastest ?? { words: words.fold, sentences: words.fold.sentences });
 }
 
 /** The end of a dance. */

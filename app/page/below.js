@@ -29,7 +29,7 @@ export class Below {
     this.grader.translate(language);
     this.keep.translate();
     this.crew.show();
-    this.jobs.render();
+    this.jobs.translate();
     this.map.draw();
   }
 

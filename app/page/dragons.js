@@ -219,6 +219,7 @@ export class Dragons {
     const text = this.#text;
     const { dances, ...limits } = this.#file();
     const contact = Object.fromEntries(CONTACT.filter((name) => name in limits).map((name) => [name, limits[name]]));
+    const spoken = language();
     let [answer, problem] = [{ safe: [], summary: "" }, null];
     try {
       const body = { dances, ...contact, part: k, least, most: least + WAIT_MOST };
@@ -230,7 +231,7 @@ export class Dragons {
     }
     if (this.#text !== text) return; // A person has changed the dragons meanwhile.
     const [first] = answer.safe;
-    this.note = first ? null : { text, k, least, problem };
+    this.note = first ? null : { text, k, least, problem, words: answer.summary, spoken };
     if (!first) return this.#noted();
     const tenth = Math.ceil(10 * first[0]) / 10;
     const delay = tenth <= first[1] ? tenth : first[0];
@@ -268,10 +269,10 @@ export class Dragons {
     if (!is) this.note = null;
     hide(this.apart, !is);
     if (!is) return;
-    const { k, least, problem } = this.note;
-    if (problem && problem.language !== language()) return this.#wait(k, least);
-    const words = { name: this.#nameOf(this.#records, k), most: WAIT_MOST };
-    this.apart.textContent = problem ? say("How long {name} has to wait was not found: {why} It dances without a delay of its own: type one, or make the dragons or the path shorter.", { ...words, why: problem.sentence }) : say("{name} finds no safe delay up to {most} s: on this path the dragons stand on one another, or meet. Draw another path for it, let it begin in another street, or make the dragons shorter.", words);
+    const { k, least, problem, words, spoken } = this.note;
+    if (spoken !== language()) return this.#wait(k, least);
+    const name = this.#nameOf(this.#records, k);
+    this.apart.textContent = problem ? say("How long {name} has to wait was not found: {why} It dances without a delay of its own: type one, or make the dragons or the path shorter.", { name, why: problem.sentence }) : words;
   }
 
   /** Copy dragon k; on a drawn path it comes in behind it. changes: of the copy; later: how much later it dances [s] */

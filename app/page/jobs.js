@@ -5,7 +5,7 @@ import { $, bearer, button, download, make } from "./elements.js";
 import { LABELS } from "./fields.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { QUESTIONS, TABLE } from "./sweeps.js";
-import { say } from "./text.js";
+import { language, say } from "./text.js";
 
 const STORED = "bench-dragon-jobs";
 /** Most jobs that the browser remembers. */
@@ -19,8 +19,6 @@ const ENDINGS = { "video/mp4": ".mp4", "image/gif": ".gif", "application/json": 
 /** Names of the jobs that Keep starts. @type {Phrases} */
 const NAMES = { films: "Film of the dance", "contest-kit": "The whole contest kit", "collision-time": "First contact with its certificate", "minimum-pitch": "Minimum pitch with its proof", envelope: "Ground that benches sweep", plan: "Plan on paper, true to scale", cues: "A cue card for each bench", check: "The verdict on the whole dance", tolerance: "How far people may stray, with its proof", clearance: "Clearance, every second", trajectory: "Every handle, every second" };
 const UNFINISHED = ["accepted", "running"];
-/** States of a job. @type {Phrases} */
-const STATES = { accepted: "waits for its turn", running: "runs", successful: "done", failed: "failed", dismissed: "cancelled" };
 
 /** The remembered jobs; empty if the browser allows no storage. */
 function remembered() {
@@ -85,14 +83,14 @@ export class Jobs {
     }
   }
 
-  /** Ask for the progress of every unfinished job, and again after a while. */
+  /** Ask for the progress of every unfinished job, and of those told in another language, and again after a while. */
   async #look() {
     clearTimeout(this.#timer);
     this.render();
     for (const [id, job] of this.#jobs) {
-      if (job.status && !UNFINISHED.includes(job.status.status)) continue;
+      if (job.language === language() && !UNFINISHED.includes(job.status?.status)) continue;
       try {
-        job.status = await this.service.ask(`job ${id}`, `jobs/${id}`, { cache: "no-store" });
+        Object.assign(job, { language: language(), status: await this.service.ask(`job ${id}`, `jobs/${id}`, { cache: "no-store" }) });
         job.follow?.(job.status);
       } catch (error) {
         if (error instanceof Superseded) return;
@@ -105,6 +103,11 @@ export class Jobs {
     if ([...this.#jobs.values()].some(({ status }) => UNFINISHED.includes(status?.status))) {
       this.#timer = setTimeout(() => this.#look(), LOOK);
     }
+  }
+
+  /** After a change of language, in which the service says how far each job is. */
+  translate() {
+    this.#look();
   }
 
   #forget(id) {
@@ -159,7 +162,7 @@ export class Jobs {
     }
   }
 
-  /** Show the list, also after a change of language. A row stays while its buttons do, so that a press on one counts. */
+  /** Show the list. A row stays while its buttons do, so that a press on one counts. */
   render() {
     const focus = document.activeElement?.id;
     const rows = [...this.#jobs].filter(([, { status }]) => status).map(([id, job]) => this.#row(id, job));
@@ -173,7 +176,7 @@ export class Jobs {
     const { status } = job;
     const drawn = `${document.documentElement.lang} ${status.status}`;
     if (job.drawn !== drawn) Object.assign(job, { drawn, row: this.#newRow(id, job) });
-    job.row.querySelector(".state").textContent = stateWords(status);
+    job.row.querySelector(".state").textContent = status.sentence;
     const bar = job.row.querySelector("progress");
     if (bar) {
       bar.value = status.progress;
@@ -221,12 +224,4 @@ function what(process, spec) {
   if (!spec) return say("Sweep");
   const names = Object.keys(spec.over).map((name) => say(LABELS[name]));
   return say("{question} over {names}", { question: say(QUESTIONS[spec.question].title), names: names.join(say(" and ")) });
-}
-
-/** Progress of a job: state, designs, rate and time left. */
-function stateWords({ status, done, total, rate, time_left: left }) {
-  const words = [say(STATES[status])];
-  if (done !== null && status === "running") words.push(say("{done} of {total} designs", { done, total }));
-  if (rate && total && status === "running") words.push(say("{rate} per second, {left} s left", { rate: ((rate * total) / 100).toPrecision(3), left: Math.ceil(left) }));
-  return words.join(say(", "));
 }

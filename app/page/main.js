@@ -165,7 +165,7 @@ function showTable(pose) {
   const { clock } = questions.dance;
   const time = (last ? fold : pose.time).toFixed(6);
   $("#table-time").textContent = say(last ? "Handles 1e-6 s before the fold at {time} s" : "Handles at {time} s", { time }) + (clock ? ` · ${timeOfDay(Number(time), clock)}` : "");
-  Object.assign($("#table-fold"), { hidden: fold === null, textContent: fold === null ? "" : say("Just before the fold at {time} s: towards it the speeds grow without bound.", { time: fold.toFixed(6) }) });
+  Object.assign($("#table-fold"), { hidden: fold === null, textContent: fold === null ? "" : questions.dance.answer.words.fold.near });
 }
 
 function showTime() {
@@ -219,7 +219,7 @@ const SHOW = {
     const { answer, dance: of } = questions.answers.fastest;
     route?.certified(answer, of);
     if (questions.answers.speeds) SHOW.speeds();
-    answers.showHighestSpeed($("#highest-speed"), answer.highest_speed);
+    answers.showHighestSpeed($("#highest-speed"), answer);
     // A refusal of the numbers that are entered now stays.
     if (of !== questions.dance || questions.refusals.has("contact")) return;
     // At rest the engines check the whole dragon; while a slider is dragged, only the pair.

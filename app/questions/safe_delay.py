@@ -98,7 +98,10 @@ def _parts(answer: SafeDelays, request: Wire) -> Iterator[Part]:
             yield Table("", say("from [s]"), say("to [s]"), lines=lines)
 
 
-NONE = phrase("No delay of {name} from {least} to {most} s is known to be safe.")
+NONE = phrase(
+    "No delay of {name} from {least} to {most} s is known to be safe: the dragons stand on one another there, or meet. "
+    "Give it another path or another street to begin in, or make the dragons shorter."
+)
 AT_ONCE = phrase("{name} need not wait: no dragons meet with a delay of {least} s, the shortest that was asked for.")
 FIRST = phrase(
     "{name} waits {delay} s before it begins: the shortest delay from {least} to {most} s that is known to be safe."

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import orjson
@@ -14,7 +15,16 @@ from app.wire.faults import pointer
 from app.wire.fields import measure
 from app.wire.problem import Problem
 from app.wire.question import JSON
+from core.language import Phrases, say
 
+# States of a job, as people read them.
+STATES: Phrases = {
+    JobState.ACCEPTED: "waits for its turn",
+    JobState.RUNNING: "runs",
+    JobState.SUCCESSFUL: "done",
+    JobState.FAILED: "failed",
+    JobState.DISMISSED: "cancelled",
+}
 EVENTS_TYPE = "text/event-stream"
 # Formats of the table of a sweep, the first one by default.
 SWEEP_FORMS = (PARQUET_TYPE, CSV_TYPE, JSON, ARROW_TYPE)
@@ -75,6 +85,7 @@ class JobStatus(BaseModel):
     processID: str = Field(description="Operation id of the call that answers")  # noqa: N815
     status: JobState = Field(description="Status of the job")
     message: str = Field(description="The status in words")
+    sentence: str = Field(description="The status for people: also designs, rate and time left of a sweep that runs")
     created: str = Field(description="Time of the request, in ISO 8601")
     started: str | None = Field(description="Time of its last start")
     finished: str | None = Field(description="Time of its end, in success or not")
@@ -96,6 +107,17 @@ class JobList(BaseModel):
     jobs: list[JobStatus] = Field(description="The newest first")
 
 
+def _progress_words(job: Job) -> str:
+    """The state of a job; of a sweep that runs also its designs, its rate and the time left."""
+    words = [say(STATES[job.state])]
+    if job.state is JobState.RUNNING and job.done is not None:
+        words.append(say("{done} of {total} designs", done=job.done, total=job.total))
+    if job.state is JobState.RUNNING and job.rate and job.total:
+        rate = f"{job.rate * job.total / 100:.3g}"
+        words.append(say("{rate} per second, {left} s left", rate=rate, left=math.ceil(job.time_left or 0.0)))
+    return say(", ").join(words)
+
+
 def status(job: Job, root: str) -> bytes:
     """A job on the wire. root: path of the service"""
     at = f"{root}/jobs/{job.id}"
@@ -104,4 +126,5 @@ def status(job: Job, root: str) -> bytes:
         links.append(Link(href=f"{at}/events", rel="monitor", type=EVENTS_TYPE))
     if job.state is JobState.SUCCESSFUL and not job.expired:
         links.append(Link(href=f"{at}/result", rel="results", type=job.media_type or JSON))
-    return orjson.dumps(job.status() | {"links": [link.model_dump() for link in links]})
+    own = {"sentence": _progress_words(job), "links": [link.model_dump() for link in links]}
+    return orjson.dumps(job.status() | own)

@@ -102,9 +102,17 @@ class Words(Answer):
     engines: EngineTable | None = Field(None, description="Verdicts of the engines; null without any")
 
 
+class FoldWords(Words):
+    """The highest speed of a dance that folds, which has none."""
+
+    sentences: list[str] = Field(description="What it means, in sentences")
+    near: str = Field(description="What to say beside speeds just before the fold")
+
+
 class ContactWords(Words):
     """A first contact in words for people."""
 
+    fold: FoldWords | None = Field(None, description="The highest speed where the dance folds; null where it does not")
     meeting: str | None = Field(description="What meets; null if nothing does")
     ends: list[str] = Field(description="Why the dance ends, in sentences")
 
@@ -185,6 +193,16 @@ def _bracket(template: str, ends: Sequence[float], decimals: int) -> tuple[str, 
     return say("Bracket, rounded outwards"), say(template, **values)
 
 
+def _fold_words(time: str) -> FoldWords:
+    why = say("Near a fold, the speed of the handle behind it grows as one over the square root of the remaining way.")
+    words = say("Grows without bound")
+    return FoldWords(
+        title=say("Highest speed"), headline=words, exact=words, notes=[why],
+        sentences=[say("towards the fold, where a bench cannot follow any more")],
+        near=say("Just before the fold at {time} s: towards it the speeds grow without bound.", time=time),
+    )  # fmt: skip
+
+
 def contact_words(
     contact: core.FirstContact, request: Strays, check: core.ContactCheck | None, sentences: Sequence[str]
 ) -> ContactWords:
@@ -214,6 +232,7 @@ def contact_words(
     return ContactWords(
         title=near.title(near.worded("first")), headline=headline, exact=exact, facts=facts, notes=notes,
         engines=near.engines(check), meeting=meeting, ends=ends,
+        fold=_fold_words(_digits(time or 0.0, 6)) if folds else None,
     )  # fmt: skip
 
 

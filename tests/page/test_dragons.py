@@ -54,7 +54,7 @@ def test_a_second_dragon_comes_in_behind_the_first_or_the_page_says_what_can_be_
     person.presses("#several").sees({"#judgement": "Can be danced", "#dragons li": 2}).settles()
     square = "a.square..-12,-10_12,-10_12,10_-12,10"
     person.opens(f"?door=village&lang=en&path=route&route=*-11,0_11,0&begin=8&benches=3&things={square}")
-    person.presses("#several").sees({"#dragons-apart": "blue finds no safe delay"}).speaks("zh")
+    person.presses("#several").sees({"#dragons-apart": "No delay of blue"}).speaks("zh")
     person.sees({"#dragons-apart": "另画路线"})
 
 
