@@ -12,7 +12,8 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 from pydantic_core import PydanticCustomError
 
-from core.errors import Given, InvalidValue, Quantity
+from core.errors import InvalidValue
+from core.quantities import Given, Quantity
 
 # Variable with the folder where prometheus_client adds up the counts of all processes; app/service/workers.py sets it.
 SHARED_COUNTS = "PROMETHEUS_MULTIPROC_DIR"

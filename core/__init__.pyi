@@ -33,17 +33,7 @@ from .design.quickest_turn import TurnTime, quickest_turn, turn_time
 from .design.shortest_turn import ShortestTurn, shortest_turn
 from .design.turn_length import turn_length_bounds
 from .dragon import Dragon, Stray
-from .errors import (
-    BenchDragonError,
-    Given,
-    InvalidValue,
-    OutsideRun,
-    Parameter,
-    ProofRefused,
-    Quantity,
-    TooLarge,
-    TooMuchWork,
-)
+from .errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused, TooLarge, TooMuchWork
 from .extremes.joints import SharpestBend, sharpest_bend
 from .extremes.speed import (
     FirstExcess,
@@ -78,6 +68,7 @@ from .proposal.answer import Near, Objective, Proposal, Proposals, Reason, Reaso
 from .proposal.figures import Figure
 from .proposal.gates import Gate, GateUse
 from .proposal.propose import propose
+from .quantities import Given, Parameter, Quantity
 from .safe_delay import SafeDelays, safe_delay
 from .shapes.engines import Engine
 from .shapes.overlaps import CrossCheck, Overlaps, Verdict, cross_check, overlaps, separation, verdicts

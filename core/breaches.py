@@ -14,17 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
+from core.checks import checked_number
 from core.contact.between import holds_apart
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.display import Readable, WithArrays, format_range
 from core.dragon import Stray, checked_stray
-from core.errors import checked_number, question_about
 from core.extremes.speed import checked_limit
 from core.kernels import Budget
 from core.language import say
 from core.motion.places import handle_places
 from core.motion.trajectory import trajectory
+from core.questions import question_about
 from core.shapes.engines import inside
 from core.shapes.reach import Reach, directions, gains, reach
 from core.shapes.rectangles import bench_poses, edge_frames, frames

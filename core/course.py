@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core.checks import checked_type
 from core.display import WithArrays, display
 from core.dragon import Dragon
-from core.errors import checked_type
 from core.language import counted, say
 from core.paths.following import Hindrance, following, least_radius, tightest_bend
 from core.paths.route import Route

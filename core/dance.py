@@ -18,26 +18,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core import kernels
+from core.checks import checked_number, checked_type
 from core.display import Readable
 from core.dragon import Dragon
-from core.errors import (
-    Given,
-    InvalidValue,
-    OutsideRun,
-    Quantity,
-    Value,
-    bound,
-    checked_number,
-    checked_type,
-    fill_template,
-    quantities,
-)
+from core.errors import InvalidValue, OutsideRun
 from core.language import phrase
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Period, checked_passages, nodes
 from core.paths.following import bends_widely, earliest_travel
 from core.paths.refusal import refuse_tight_bends
 from core.paths.route import Route
 from core.paths.spiral import Spiral, end_theta
+from core.quantities import Given, Quantity, Value, bound, fill_template, quantities
 from core.values import Floats
 
 # Length of the default table of whole seconds, as in the contest [s].

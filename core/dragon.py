@@ -10,22 +10,12 @@ from typing import Any
 
 import numpy as np
 
+from core.checks import SIZE_MAX, SIZE_MIN, checked_number, checked_size
 from core.display import REPR_MOST, TABLE_DIGITS, Readable, display, format_range
-from core.errors import (
-    SIZE_MAX,
-    SIZE_MIN,
-    Given,
-    InvalidValue,
-    Parameter,
-    Quantity,
-    Value,
-    checked_number,
-    checked_size,
-    from_to,
-    quantities,
-)
+from core.errors import InvalidValue
 from core.language import say
 from core.names import checked_name
+from core.quantities import Given, Parameter, Quantity, Value, from_to, quantities
 from core.values import Floats
 
 BENCHES_MAX = 10_000_000

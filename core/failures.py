@@ -12,11 +12,11 @@ from core.contact.walls import AreaClearance, VenueClearance
 from core.dance import RunEnd
 from core.display import Readable
 from core.dragon import Dragon
-from core.errors import format_bound, format_number
 from core.extremes.speed import SPEED_PROVEN, SPEED_ROUNDING, FirstExcess, HighestSpeed
 from core.language import phrase, say, sense
 from core.paths.path import HeadState
 from core.performance import Performance
+from core.quantities import format_bound, format_number
 
 # Widest bracket of a first excess over a speed limit [s]; of a wider one the message says "at the latest".
 EXCESS_KNOWN = 1e-6

@@ -8,6 +8,7 @@ from enum import StrEnum
 from functools import partial
 from typing import Any
 
+from core.checks import checked_number, checked_type
 from core.contact.answer import FirstContact
 from core.contact.clearance import LeastClearance, least_clearance
 from core.contact.encounter import first_encounter
@@ -18,7 +19,6 @@ from core.contact.walls import VenueClearance, venue_clearance
 from core.dance import Dance, EndReason
 from core.display import Readable, display
 from core.dragon import Stray, checked_stray
-from core.errors import checked_number, checked_type, or_about, question_about
 from core.extremes.joints import SharpestBend, sharpest_bend
 from core.extremes.speed import HighestSpeed, checked_limit, first_excess, highest_speed
 from core.failures import (
@@ -38,6 +38,7 @@ from core.kernels import Budget
 from core.language import Phrases, say
 from core.passages import TIME_MAX
 from core.performance import Performance
+from core.questions import or_about, question_about
 from core.venue import Venue
 
 # Length of the judged interval if benches already touch at the start [s].

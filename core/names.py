@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from unicodedata import category
 
-from core.errors import Given, InvalidValue, Value
+from core.errors import InvalidValue
+from core.quantities import Given, Value
 
 # Longest name of a bench or an area [characters].
 NAME_MAX = 200

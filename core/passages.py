@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from typing import NamedTuple
 
+from core.checks import checked_number
 from core.display import Readable
-from core.errors import Given, InvalidValue, Parameter, Quantity, checked_number
+from core.errors import InvalidValue
+from core.quantities import Given, Parameter, Quantity
 
 HEAD_SPEED_MIN = 1e-6  # [m/s]
 HEAD_SPEED_MAX = 1e4  # [m/s]

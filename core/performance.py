@@ -13,25 +13,15 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from core.checks import checked_list, checked_number, checked_type
 from core.dance import Dance, EndReason, whole_seconds
 from core.display import Readable, format_range
 from core.dragon import Stray, checked_stray
-from core.errors import (
-    Given,
-    InvalidValue,
-    OutsideRun,
-    Parameter,
-    Quantity,
-    Value,
-    bound,
-    checked_list,
-    checked_number,
-    checked_type,
-    quantities,
-)
+from core.errors import InvalidValue, OutsideRun
 from core.language import counted, say
 from core.names import checked_name
 from core.passages import TIME_MAX
+from core.quantities import Given, Parameter, Quantity, Value, bound, quantities
 from core.values import Floats
 from core.venue import Venue
 

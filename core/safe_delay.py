@@ -24,6 +24,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from core.checks import checked_number
 from core.contact.brackets import TOUCHES
 from core.contact.search import MARGIN_MAX, WORK_BUDGET
 from core.contact.stage import Player, Stage
@@ -31,7 +32,7 @@ from core.contact.stage_march import EncounterMarch
 from core.dance import Dance
 from core.display import Readable, format_range
 from core.dragon import Stray
-from core.errors import InvalidValue, Parameter, Quantity, bound, checked_number, quantities, question_about
+from core.errors import InvalidValue
 from core.extremes.speed import highest_speed
 from core.kernels import Budget, Ended
 from core.kernels.constants import HALF_LENGTH
@@ -39,6 +40,8 @@ from core.kernels.results import Marched
 from core.language import say
 from core.passages import TIME_MAX
 from core.performance import DELAY_MAX, Part, Performance
+from core.quantities import Parameter, Quantity, bound, quantities
+from core.questions import question_about
 from core.shapes.reach import gains
 
 # Shortest interval of delays that is halved, and largest uncertainty of an end of a safe interval [s].

@@ -9,10 +9,12 @@ from itertools import pairwise
 
 import numpy as np
 
+from core.checks import checked_list, checked_point, checked_type
 from core.display import Readable, format_range
-from core.errors import Given, InvalidValue, Value, checked_list, checked_point, checked_type
+from core.errors import InvalidValue
 from core.language import Phrases, say
 from core.names import checked_name
+from core.quantities import Given, Value
 from core.shapes.engines import polygon_fault
 from core.values import Floats, Point
 

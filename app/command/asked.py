@@ -33,8 +33,8 @@ from app.wire.labels import Part, fields_of
 from app.wire.question import JSON, Command, Question, Terms, language_for
 from app.wire.refusals import refusing
 from core import InvalidValue
-from core.errors import Parameter
 from core.language import speaking
+from core.quantities import Parameter
 from core.values import Progress
 
 # Fields of which a request about a dance, or about several, has one.

@@ -21,8 +21,8 @@ from app.questions.pitch_scan import ScanFields
 from app.wire.question import Terms
 from app.wire.refusals import refusing
 from core import InvalidValue
-from core.errors import Given
 from core.language import say
+from core.quantities import Given
 
 
 class FigureOptions(drawn.InstantQuery, ScanFields, drawn.WithLanguage):

@@ -17,8 +17,8 @@ from app.command import show
 from app.command.usage import Commands
 from app.files.disk import checked_output, write_whole
 from core import InvalidValue
-from core.errors import Given
 from core.language import Listed, Phrases, counted, say
+from core.quantities import Given
 
 if TYPE_CHECKING:
     from app.jobs.places import InFolder, OfService

@@ -11,7 +11,8 @@ import typer
 
 from app.command.usage import path
 from app.extras import require
-from core.errors import Given, InvalidValue
+from core.errors import InvalidValue
+from core.quantities import Given
 
 # The connection of an assistant that started this process.
 LOCAL = ("127.0.0.1", 0)

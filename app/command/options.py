@@ -33,8 +33,8 @@ from app.wire.question import Command, Question
 from app.wire.refusals import refusing
 from core import BenchDragonError, Dance, InvalidValue, Performance
 from core.dance import DEFAULT_SPAN
-from core.errors import Parameter, Value
 from core.language import Listed, say
+from core.quantities import Parameter, Value
 
 Model = TypeVar("Model", bound=BaseModel)
 Json = Annotated[bool, typer.Option("--json", help="Print the service's JSON instead of a table.")]

@@ -20,8 +20,8 @@ from app.maps.tracks import CHORD
 from app.wire.fields import Coordinates
 from app.wire.labels import Table
 from core import InvalidValue
-from core.errors import Given
 from core.language import counted, phrase, say
+from core.quantities import Given
 
 # Advice for a drawing with more than a venue may have.
 PARTLY_BY_OPTIONS = phrase(

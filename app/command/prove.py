@@ -34,8 +34,9 @@ from app.wire.messages import checked
 from app.wire.paths import Circle, TurnFields
 from app.wire.texts import Unreadable, json_of
 from core import Outcome
-from core.errors import ProofRefused, Quantity, format_number
+from core.errors import ProofRefused
 from core.language import Phrases, say
+from core.quantities import Quantity, format_number
 from core.tolerance.curve import time_on_circle
 
 if TYPE_CHECKING:

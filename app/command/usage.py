@@ -18,8 +18,9 @@ from typer.core import TyperGroup
 from app.command.show import PIECE
 from app.wire.messages import ALIKE_SLIP, fault_of
 from app.wire.numbers import number_of
-from core.errors import BenchDragonError, Given, fill_message
+from core.errors import BenchDragonError
 from core.language import Language, Listed, Phrases, phrase, say, spoken
+from core.quantities import Given, fill_message
 
 # Class of every mistake that the parser reports; typer gives it no public name.
 Misuse: Any = typer.BadParameter.__base__

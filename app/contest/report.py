@@ -10,8 +10,8 @@ from app.contest.answers import Result
 from app.contest.solved import Solved
 from app.contest.tables import KitTable, in_markdown
 from core import Budget
-from core.errors import format_number
 from core.language import Listed, say
+from core.quantities import format_number
 
 if TYPE_CHECKING:
     from app.contest.figures import Drawn

@@ -15,8 +15,8 @@ from app.wire.fields import short_json
 from app.wire.messages import OBJECT
 from app.wire.texts import Unreadable, json_of
 from core import InvalidValue
-from core.errors import Given, Parameter
 from core.language import Listed, Phrases, say
+from core.quantities import Given, Parameter
 
 # What systems say of a file that cannot be used.
 SYSTEM: Phrases = {

@@ -17,9 +17,10 @@ from app.files.fonts import families
 from core import Budget, Dragon, MinimumPitch, Venue, first_contact, trajectory
 from core.dance import Dance
 from core.design.pitch_scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan
-from core.errors import format_number, question_about
 from core.language import say
 from core.plots import GREY, VERMILION, draw_scan
+from core.quantities import format_number
+from core.questions import question_about
 
 
 def figure_file(draw: Callable[[], Figure], format: str, budget: Budget | None = None) -> bytes:

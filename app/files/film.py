@@ -33,9 +33,9 @@ from app.files.looks import with_square
 from app.files.scratch import temporary
 from app.wire.clocks import minutes_and_seconds, time_of_day
 from core import Budget, Dance, Dragon, Venue, bench_outlines, trajectory
-from core.errors import question_about
 from core.language import say
 from core.plots import BLUE, VERMILION, draw_dance
+from core.questions import question_about
 from core.values import Floats
 
 DPI = 100

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Mapping
 from xml.parsers import expat
 
 from core import InvalidValue
-from core.errors import Given
+from core.quantities import Given
 
 # Longest tag, comment or instruction [bytes].
 TAG_MAX = 200_000

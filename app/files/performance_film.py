@@ -14,9 +14,9 @@ from app.files.film_spec import FilmSpec
 from app.files.looks import colour_of
 from app.files.performances import LEGEND_MOST
 from core import Budget, Dragon, Performance, bench_outlines, trajectory
-from core.errors import question_about
 from core.language import say
 from core.plots import draw_dance
+from core.questions import question_about
 from core.values import Floats
 
 # Place of the first name and distance from one name to the next, as shares of the height of the picture.

@@ -15,9 +15,9 @@ from app.files.figures import figure_file
 from app.files.looks import colour_of
 from core import Budget, FirstEncounter, OutsideRun, Performance, bench_outlines, trajectory
 from core.display import display
-from core.errors import question_about
 from core.language import say
 from core.plots import ENLARGED_MARGINS, ENLARGED_WIDTHS, PALE, SHAPES_MAX, plan
+from core.questions import question_about
 from core.values import Floats
 
 # Most dragons whose names stand in the legend [1].

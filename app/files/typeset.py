@@ -23,8 +23,8 @@ from app.files.fonts import LATIN, chinese_among, language_of
 from app.processes.child import ProcessEnded
 from app.processes.pool import Pool
 from core import Budget, TooMuchWork
-from core.errors import Quantity
 from core.language import Language, say, spoken
+from core.quantities import Quantity
 
 # Millimetres in a point of type.
 POINT = 25.4 / 72.0

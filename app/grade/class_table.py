@@ -18,8 +18,8 @@ from dataclasses import dataclass
 from app.grade.judged import Rating
 from app.grade.words import word
 from core import InvalidValue
-from core.errors import Given
 from core.language import Listed
+from core.quantities import Given
 
 # What a rubric may state: the points of each workbook, and the share of them for right numbers with fewer decimals [1].
 WORKBOOKS, ROUNDED = ("result1", "result2", "result4"), "rounded"

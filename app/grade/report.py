@@ -39,9 +39,10 @@ from app.grade.typed_number import plain_number
 from app.grade.words import Note, note, word
 from app.wire.fields import Answer
 from core import Budget, InvalidValue, TooMuchWork
-from core.errors import Quantity, too_much
 from core.kernels import Halted
 from core.language import joined, say
+from core.quantities import Quantity
+from core.questions import too_much
 
 # Endings of workbook files.
 WORKBOOK_ENDINGS = (".xlsx", ".xlsm")

@@ -7,7 +7,7 @@ import unicodedata
 
 from app.grade.words import Note, note
 from core import InvalidValue
-from core.errors import Given
+from core.quantities import Given
 
 # A number as it was typed, because its digits show its rounding.
 TYPED = re.compile(r"[+-]?([0-9]{1,6}(\.[0-9]{0,20})?|\.[0-9]{1,20})([eE][+-]?[0-9]{1,2})?")

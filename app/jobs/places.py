@@ -20,7 +20,7 @@ from app.jobs.job import JobState
 from app.jobs.store import Store
 from app.settings import Settings
 from core import BenchDragonError, InvalidValue
-from core.errors import Given
+from core.quantities import Given
 
 # Longest wait for an answer of a service [s].
 PATIENCE = 60.0

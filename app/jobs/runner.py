@@ -37,8 +37,8 @@ from app.processes.pool import Pool
 from app.settings import Settings, part
 from app.wire.problem import problem_of
 from core import Budget
-from core.errors import Quantity
 from core.kernels import Halted
+from core.quantities import Quantity
 
 logger = logging.getLogger("app.jobs")
 

@@ -13,8 +13,8 @@ from typing import Self
 
 from app.wire.numbers import number_of
 from core import InvalidValue
-from core.errors import Given
 from core.language import phrase
+from core.quantities import Given
 from core.values import Point
 
 # Most layers that a refusal names.

@@ -15,7 +15,7 @@ import numpy as np
 
 from app.maps.features import LEAVE_OUT, POINTS_MAX
 from core import InvalidValue
-from core.errors import Clause, Quantity
+from core.quantities import Clause, Quantity
 from core.values import Floats
 
 # Largest distance of a curve from the straight lines that replace it [m].

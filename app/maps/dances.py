@@ -12,8 +12,8 @@ from app.processes.limits import reading
 from app.wire.benches import bench_table
 from app.wire.texts import Unreadable, is_workbook, table_of, toml_of
 from core import Budget, InvalidValue
-from core.errors import Parameter
 from core.language import say
+from core.quantities import Parameter
 
 # Endings of a file that describes a dance.
 DANCE_ENDINGS = (".toml", ".json")

@@ -21,7 +21,7 @@ from app.maps.entities import HOLES, MARKS, Entities, faults
 from app.maps.features import LEAVE_OUT, Drawing, MapFeature, Unit, damaged_kind, inner_point, place_fields, points_in
 from app.wire.geojson import GATE, INNER_SQUARE, LANE, gate_properties
 from core import InvalidValue
-from core.errors import Quantity
+from core.quantities import Quantity
 from core.venue import Ring
 
 # First line, end, and what stands there instead.

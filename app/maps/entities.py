@@ -31,8 +31,8 @@ from app.maps.labels import MapText, are_too_many, label_of, names_of
 from app.wire.geojson import LANE, SQUARE, gate_properties
 from app.wire.parts import APART
 from core import InvalidValue
-from core.errors import Clause
 from core.language import phrase
+from core.quantities import Clause
 from core.values import Point
 
 # Deepest nesting of blocks, and most entities of a drawing, without and with those that are not read; those of a block

@@ -15,8 +15,8 @@ import numpy as np
 from app.wire.degrees import GRID_MAX, GeographicOrigin
 from app.wire.geojson import GATE, INNER_SQUARE, LANE, SQUARE, TREE_SIDES, Aside, Thing, outlined
 from core import InvalidValue
-from core.errors import Clause, say_value
 from core.language import phrase, say, sense
+from core.quantities import Clause, say_value
 from core.values import Floats, Point
 from core.venue import Ring
 

@@ -29,8 +29,8 @@ from app.wire.degrees import GEOGRAPHIC, crs_name
 from app.wire.geojson import DEPTH_MAX
 from app.wire.numbers import number_of
 from core import InvalidValue
-from core.errors import Given
 from core.language import Listed
+from core.quantities import Given
 from core.venue import Ring
 
 # For each geometry: the shape of its parts, and the depth of its lists of points in its coordinates.

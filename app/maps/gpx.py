@@ -13,8 +13,8 @@ from app.files.markup import Reader, read_document
 from app.maps.features import Drawing, FeatureCollector, MapFeature, Unit, empty_kind, role_of
 from app.wire.numbers import number_of
 from core import InvalidValue
-from core.errors import Given
 from core.language import phrase
+from core.quantities import Given
 from core.values import Point
 
 # Bytes in which the first element of a document is looked for, and its tag; zeros are of UTF-16.

@@ -32,8 +32,8 @@ from app.maps.gpx import seconds_of
 from app.wire.geojson import GATE, INNER_SQUARE, LANE, gate_properties
 from app.wire.numbers import number_of
 from core import InvalidValue
-from core.errors import Given
 from core.language import phrase
+from core.quantities import Given
 from core.values import Point
 from core.venue import Ring
 

@@ -34,9 +34,10 @@ from app.wire.fields import Coordinates
 from app.wire.geojson import ASIDES, LANE, LANE_MAX, LANE_MIN, LANE_RADIUS, SQUARE
 from app.wire.parts import is_cut, merged, whole_areas
 from core import Dragon, InvalidValue
-from core.errors import COORDINATE_MAX, SIZE_MIN, Quantity, quantities
+from core.checks import COORDINATE_MAX, SIZE_MIN
 from core.language import Listed, counted, phrase, say
 from core.names import NAME_MAX, is_printable
+from core.quantities import Quantity, quantities
 from core.shapes.engines import strip_of
 from core.values import Floats
 

@@ -16,7 +16,7 @@ from app.maps.marks import line_of
 from app.wire.messages import fault_of
 from app.wire.paths import POINTS_MAX, AnyPath
 from core import InvalidValue, Route, Spiral
-from core.errors import Parameter
+from core.quantities import Parameter
 from core.values import Floats
 
 # Least distance between two points of a path [m]; and largest distance of a line from its stored path, beyond which the

@@ -38,8 +38,8 @@ from app.wire.degrees import Place, place_of
 from app.wire.fields import Answer, Coordinates
 from app.wire.texts import CHINESE, OLD_WORKBOOK, Unreadable, is_workbook, refuse_deep, toml_of, values_in
 from core import BenchDragonError, Budget, Dragon, InvalidValue
-from core.errors import Given, Parameter
 from core.language import say
+from core.quantities import Given, Parameter
 
 # Longest file [bytes].
 FILE_MAX = 20_000_000

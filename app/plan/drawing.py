@@ -13,7 +13,7 @@ import numpy as np
 from app.files.typeset import POINT, Face
 from app.plan.paper import PAPERS, Box, Paper, PaperName, Places, box_about
 from core import Budget, InvalidValue
-from core.errors import quantities
+from core.quantities import quantities
 from core.values import Floats
 
 # Space between a map and its frame, and width of the edge in which a line is broken that goes on beyond it [mm].

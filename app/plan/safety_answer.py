@@ -14,7 +14,7 @@ from app.wire.messages import checked
 from app.wire.numbers import numbers_of
 from app.wire.paths import Point as PointField
 from core import Area, InvalidValue, Judgement
-from core.errors import Given
+from core.quantities import Given
 from core.shapes.engines import lane_rings
 from core.values import Floats
 

@@ -10,8 +10,8 @@ import core
 from app.plan.safety_answer import Lane, SafetySheet
 from app.plan.timing import TimeFormat
 from app.wire.readings import bench_words
-from core.errors import format_bound, format_number
 from core.language import Listed, counted, joined, say, sense
+from core.quantities import format_bound, format_number
 
 # Most times in a lane that a sheet names.
 STAYS_NAMED = 4

@@ -12,7 +12,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from core import TooMuchWork
-from core.errors import Quantity
+from core.quantities import Quantity
 
 # Memory in which any file within the other limits can be read [bytes]; address space, so that it also holds for what is
 # reserved. A new process takes 240 MB of it (measured 2026-11-26).

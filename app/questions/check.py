@@ -33,8 +33,8 @@ from app.wire.readings import (
 )
 from app.wire.refusals import refusing
 from core import Dance, FailureKind, Judgement, Performance, Venue
-from core.errors import format_bound, format_number
 from core.language import phrase, say
+from core.quantities import format_bound, format_number
 
 if TYPE_CHECKING:
     from app.wire.degrees import Place

@@ -12,8 +12,8 @@ from app.wire.fields import Answer, DanceQuery, Wire
 from app.wire.labels import Part, Table, label, separation, value_text
 from app.wire.performances import SeveralDances
 from app.wire.question import Command, Question, Terms
-from core.errors import format_number
 from core.language import say
+from core.quantities import format_number
 
 # Time that one bench at one instant takes, measured 2026-11-22 [s].
 SECONDS_PER_CELL = 3e-6

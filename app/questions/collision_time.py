@@ -15,8 +15,8 @@ from app.wire.labels import with_strays
 from app.wire.question import UNKNOWN_COST, Command, Question, Terms
 from app.wire.readings import contact_words
 from core import Outcome
-from core.errors import format_number
 from core.language import say
+from core.quantities import format_number
 
 # Most benches of a dragon that are all judged; of a longer dragon only those near the contact are [1].
 JUDGED_MOST = 2_000

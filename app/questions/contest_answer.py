@@ -19,8 +19,8 @@ from app.wire.fields import Answer, Whole, Wire, measure
 from app.wire.question import Question, Terms
 from app.wire.readings import contact_words, handles_words, pitch_words, turn_words
 from core import Dance, Dragon, InvalidValue, Outcome
-from core.errors import format_bound, format_number
 from core.language import phrase, say
+from core.quantities import format_bound, format_number
 
 # The problem as the contest gives it.
 PROBLEM = ContestRequest()

@@ -13,9 +13,9 @@ from app.files.film_spec import ENDINGS, LOOKS
 from app.questions.films import SECONDS_PER_MEGAPIXEL
 from app.wire.fields import Whole, check_limit, measure
 from app.wire.question import Question, Terms
-from core.errors import unanswered
 from core.kernels import Halted
 from core.language import Language
+from core.questions import unanswered
 
 ZIP_TYPE = "application/zip"
 # Time of everything but the films of the contest's dance, measured 2026-11-27 [s].

@@ -27,11 +27,13 @@ from app.wire.messages import checked
 from app.wire.numbers import numbers_of
 from app.wire.question import JSON, Command, ListOption, Question, Terms
 from core import Dance, InvalidValue
-from core.errors import Given, Parameter, Quantity, TooLarge, question_about
+from core.errors import TooLarge
 from core.language import Language, Listed, say
 from core.motion.places import handle_places
 from core.people import crew as facts
 from core.people.crew import ON_BENCH_MAX, PEOPLE_MAX, PLACES_MAX, SHIFT_MAX, Relief, places_near
+from core.quantities import Given, Parameter, Quantity
+from core.questions import question_about
 
 if TYPE_CHECKING:
     from app.cards.timeline import CrewSheets

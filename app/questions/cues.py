@@ -22,11 +22,13 @@ from app.wire.fields import Address, measure
 from app.wire.performances import NumberOrName, SeveralFields, dragons_of
 from app.wire.question import JSON, Command, ListOption, Question, Terms
 from core import Dance, FailureKind, InvalidValue, Performance
-from core.errors import Given, Parameter, TooLarge, question_about
+from core.errors import TooLarge
 from core.language import say
 from core.motion.places import handle_places
 from core.people.cards import Card, card_of
 from core.people.cues import FOLLOWED_MAX, REACH, REACH_MAX, bench_cues
+from core.quantities import Given, Parameter
+from core.questions import question_about
 
 # Longest address whose code fits on a card [characters].
 ADDRESS_MOST = 600

@@ -16,8 +16,8 @@ from app.wire.performances import FILE_OF_DANCES, PerformanceFields, Performance
 from app.wire.question import Command, Output, Question, Terms, Writer
 from app.wire.readings import met_words
 from core import Outcome
-from core.errors import format_number
 from core.language import say
+from core.quantities import format_number
 
 
 class EncounterRequest(Contact, PerformanceSpan, PerformanceFields, strict=True):

@@ -15,8 +15,8 @@ from app.wire.options import PathOptions
 from app.wire.performances import NumberOrName, PartBody, SeveralFields, dragons_of
 from app.wire.question import Command, ListOption, Output, Question, Terms
 from core import Dance, Dragon, EndReason, InvalidValue, Outcome, Performance, first_contact
-from core.errors import Given, Quantity, bound
 from core.language import Language, say
+from core.quantities import Given, Quantity, bound
 
 FORM = next(iter(ENDINGS))
 # Longest time of the dance in a film without a stop, unless benches touch earlier, and time left before a fold [s].

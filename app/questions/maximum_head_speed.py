@@ -12,8 +12,8 @@ from app.wire.fields import Answer, Instant, SpeedLimit, UniformDragon, Wire, me
 from app.wire.paths import AnyPath, TurnFields, TurnPath
 from app.wire.question import Command, Question, Terms
 from app.wire.readings import head_words
-from core.errors import format_number
 from core.language import say
+from core.quantities import format_number
 
 
 class SpeedLimitField(Wire):

@@ -14,8 +14,8 @@ from app.wire.question import UNKNOWN_COST, Command, Question, Terms
 from app.wire.readings import pitch_words
 from core import Dragon, InvalidValue, LimitedBy
 from core.design.minimum_pitch import DRAGONS_MAX
-from core.errors import Quantity, format_number, quantities
 from core.language import say
+from core.quantities import Quantity, format_number, quantities
 
 # Shortest chord and largest circle of a search that takes 20 ms [m].
 CHORD_ORDINARY, CIRCLE_ORDINARY = 0.5, 30.0

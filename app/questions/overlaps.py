@@ -14,8 +14,8 @@ from app.wire.fields import Answer, Coordinate, Length, Margin, Width, Wire, che
 from app.wire.labels import Part, Table, label, separation, value_text, value_word
 from app.wire.question import Command, Question, Terms
 from core import Engine
-from core.errors import format_number
 from core.language import Listed, phrase, say
+from core.quantities import format_number
 from core.values import Floats
 
 

@@ -22,10 +22,11 @@ from app.wire.numbers import numbers_of
 from app.wire.performances import SeveralFields
 from app.wire.question import JSON, Command, ListOption, Output, Question, Terms
 from core import Dance, FailureKind, InvalidValue, Judgement
-from core.errors import Given, Quantity, format_number, question_about
 from core.language import Language, counted, phrase, say
 from core.motion.places import handle_places
 from core.people.crew import places_near
+from core.quantities import Given, Quantity, format_number
+from core.questions import question_about
 from core.shapes.engines import widened
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from app.wire.paths import TurnCircle
 from app.wire.question import Command, Question, Terms
 from app.wire.readings import time_words, turn_words
 from core.design.quickest_turn import GRID
-from core.errors import format_number
 from core.language import joined, say
+from core.quantities import format_number
 
 
 class QuickestTurnFields(SpeedLimitField, TurnCircle):

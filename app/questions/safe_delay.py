@@ -13,9 +13,9 @@ from app.wire.fields import Answer, Margin, Strays, Wire, measure
 from app.wire.labels import Part, Table
 from app.wire.performances import FILE_OF_DANCES, Moment, NumberOrName, PerformanceFields, dragon_of
 from app.wire.question import Command, Question, Terms
-from core.errors import format_bound, format_number
 from core.language import phrase, say
 from core.performance import DELAY_MAX
+from core.quantities import format_bound, format_number
 
 Delay = Annotated[float, Field(ge=-DELAY_MAX, le=DELAY_MAX)]
 

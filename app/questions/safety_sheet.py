@@ -55,10 +55,11 @@ from app.wire.performances import SeveralFields
 from app.wire.question import JSON, UNKNOWN_COST, Command, ListOption, Output, Question, Terms
 from app.wire.readings import dragons_failure_words, failure_words
 from core import Area, FailureKind, InvalidValue, Judgement, Part, Performance
-from core.errors import Parameter, format_bound, format_number, question_about
 from core.language import joined, say
 from core.motion.places import Passing
 from core.motion.trajectory import trajectory
+from core.quantities import Parameter, format_bound, format_number
+from core.questions import question_about
 from core.shapes.engines import Polygons, area_of, free_width, holds_all, merged, widened
 from core.shapes.reach import gains
 from core.shapes.rectangles import bench_poses

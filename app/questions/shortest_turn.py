@@ -13,8 +13,8 @@ from app.wire.fields import Margin, Strays, UniformDragon, measure
 from app.wire.paths import TurnCircle
 from app.wire.question import Command, Question, Terms
 from app.wire.readings import limit_words, turn_words
-from core.errors import format_number
 from core.language import say
+from core.quantities import format_number
 
 
 class ShortestTurnFields(Strays, TurnCircle):

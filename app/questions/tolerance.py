@@ -16,8 +16,8 @@ from app.wire.performances import SeveralFields
 from app.wire.question import Command, Question, Terms
 from app.wire.readings import stray_words
 from core import InvalidValue
-from core.errors import Quantity
 from core.language import phrase, say
+from core.quantities import Quantity
 from core.tolerance.curve import time_on_circle
 
 SizeError = Annotated[float, Field(ge=0, le=5)]

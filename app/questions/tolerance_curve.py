@@ -17,8 +17,8 @@ from app.wire.labels import Part, Table, label, value_text
 from app.wire.paths import WayToCircle
 from app.wire.question import Command, Question, Terms
 from core import Dragon, InvalidValue, Limit, TooMuchWork
-from core.errors import format_number, quantities
 from core.language import say
+from core.quantities import format_number, quantities
 from core.values import Floats
 
 # Default highest pitch, as a multiple of the lowest one [1].

@@ -16,8 +16,8 @@ from app.wire.fields import UniformDragon
 from app.wire.paths import TurnFields, TurnPath
 from app.wire.question import Command, Question, Terms
 from app.wire.readings import time_words
-from core.errors import format_number
 from core.language import say
+from core.quantities import format_number
 
 
 class TurnTimeQuery(SpeedLimitField, TurnFields, UniformDragon):

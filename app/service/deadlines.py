@@ -13,8 +13,8 @@ from fastapi.routing import APIRoute
 from app.service.lanes import Lanes
 from app.settings import Settings
 from core import Budget
-from core.errors import Quantity
 from core.language import phrase, say
+from core.quantities import Quantity
 
 Handler = Callable[[Request], Coroutine[Any, Any, Response]]
 

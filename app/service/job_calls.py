@@ -11,8 +11,8 @@ from app.service.middleware import Layer
 from app.service.negotiation import AS_JOB, prefers_job
 from app.service.problems import Refused
 from app.settings import Settings
-from core.errors import Quantity
 from core.language import say
+from core.quantities import Quantity
 
 # Calls about jobs that wait for the disk at once in one process, and those that wait for their turn: more are refused.
 JOB_CALLS, JOB_CALLS_WAITING = 4, 200

@@ -64,8 +64,8 @@ from app.wire.fields import check_limit, short_json
 from app.wire.problem import PROBLEM_TYPE, item_of
 from app.wire.question import JSON, FileFormat
 from core import BenchDragonError
-from core.errors import Given, Quantity
 from core.language import Listed, counted, phrase, say, spoken
+from core.quantities import Given, Quantity
 
 # Time between two checks for news, and between two signs of life while there are none [s].
 LOOK_SECONDS, BEAT_SECONDS = 0.25, 15.0

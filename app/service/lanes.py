@@ -21,8 +21,8 @@ from app.service.problems import Refused
 from app.settings import Settings, part
 from app.wire.question import UNKNOWN_COST
 from core import Budget, TooMuchWork
-from core.errors import Quantity
 from core.language import Phrases, counted, phrase, say
+from core.quantities import Quantity
 
 # Longest estimated time of a cheap answer [s].
 CHEAP = 0.1

@@ -17,8 +17,8 @@ from app.wire.messages import fault_of
 from app.wire.problem import PROBLEM_TYPE, ErrorItem, Problem, item_of, problem_of, title
 from app.wire.texts import Unfit, Unreadable
 from core import BenchDragonError, TooMuchWork
-from core.errors import Parameter, Value
 from core.language import phrase, say
+from core.quantities import Parameter, Value
 
 # Advice to a client whose answer takes too much work.
 A_JOB = phrase(

@@ -17,7 +17,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from app.service.problems import problem
 from app.settings import Settings
-from core.errors import Quantity
+from core.quantities import Quantity
 
 # Size of the pieces in which chunked bodies are read, with other work in between [bytes]: 700 chunks of one byte, 6 ms.
 PIECE = 4096

@@ -10,7 +10,7 @@ from app.service.middleware import Layer
 from app.service.pages import long_address
 from app.service.problems import CLOSE, Refused
 from app.settings import Settings
-from core.errors import Quantity
+from core.quantities import Quantity
 
 # Larger bodies are read and answered in a thread of their own [bytes]; smaller ones take under 2 ms to read.
 LARGE = 64_000

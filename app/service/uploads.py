@@ -34,9 +34,10 @@ from app.settings import Settings
 from app.wire.fields import Answer, Coordinates, OneLine, Wire, measure
 from app.wire.question import BYTES, JSON, language_for
 from core import BenchDragonError
-from core.errors import Quantity, too_much
 from core.kernels import Halted
 from core.language import Language, say, speaking
+from core.quantities import Quantity
+from core.questions import too_much
 
 GRADED = (BYTES, XLSX_TYPE, CSV_TYPE)
 # Accepted media types of maps; the form of a map follows from its first bytes, whichever of these is given.

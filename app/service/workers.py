@@ -37,7 +37,7 @@ from app.processes.child import cause_of
 from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings, refuse_open_port, unknown_variables
 from app.start import importing
 from core import InvalidValue
-from core.errors import Given
+from core.quantities import Given
 from core.threads import usable_cores
 
 if TYPE_CHECKING:  # The first of several processes answers nothing and does not load the framework.

@@ -30,8 +30,8 @@ from app.wire.performances import PerformanceFields
 from app.wire.question import Terms
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
-from core.errors import Given
 from core.language import Listed
+from core.quantities import Given
 from core.values import Floats
 
 # The service's default limits, so that a row does not depend on the machine that computes it.

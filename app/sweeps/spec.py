@@ -21,8 +21,8 @@ from app.wire.fields import AS_WHOLE, Whole, measure, shallow
 from app.wire.messages import checked
 from app.wire.texts import Unreadable, json_of, toml_of
 from core import InvalidValue, TooLarge
-from core.errors import Given
 from core.language import Listed
+from core.quantities import Given
 
 DESIGNS_MAX = 10**8
 SHARDS_MAX = 10**6

@@ -28,8 +28,8 @@ from app.wire.messages import known_units
 from app.wire.question import JSON
 from app.wire.texts import TO_CELL
 from core import InvalidValue
-from core.errors import Given
 from core.language import Listed, counted, say
+from core.quantities import Given
 from core.tables import data_frame, polars_frame
 from core.values import Floats
 

@@ -16,7 +16,7 @@ from app.wire.fields import LENGTHS, OVERHANGS, WIDTHS, Wire, check_limit, measu
 from app.wire.numbers import number_of
 from app.wire.texts import text_of_cell
 from core import Dragon, InvalidValue
-from core.errors import Given, Parameter, Quantity, from_to, quantities
+from core.quantities import Given, Parameter, Quantity, from_to, quantities
 
 # Separators of columns; a table uses the first of these that stands in its first line.
 SEPARATORS = "\t;,"

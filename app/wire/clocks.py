@@ -12,8 +12,8 @@ from pydantic_core import PydanticCustomError
 
 from app.wire.fields import Instant, Wire, measure
 from core import InvalidValue, Passage
-from core.errors import Parameter, Quantity
 from core.passages import checked_passages, nodes
+from core.quantities import Parameter, Quantity
 
 DAY = 86_400  # [s]
 CLOCK = re.compile(r"([01]\d|2[0-3]):([0-5]\d)(?::([0-5]\d))?", re.ASCII)

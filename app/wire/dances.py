@@ -34,10 +34,10 @@ from app.wire.fields import (
 )
 from app.wire.paths import KINDS, AnyPath, SpiralPath
 from core import Dance, Dragon, InvalidValue, Performance
-from core.errors import Given, Parameter, quantities
 from core.language import phrase
 from core.passages import PASSAGES_MAX, Passage
 from core.people.beats import Music
+from core.quantities import Given, Parameter, quantities
 from core.values import Floats
 
 if TYPE_CHECKING:

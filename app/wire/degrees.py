@@ -31,8 +31,9 @@ from app.wire.geojson import (
 )
 from app.wire.parts import is_cut, whole_areas
 from core import Dragon, InvalidValue, Venue
-from core.errors import Given, Parameter, checked_number, quantities
+from core.checks import checked_number
 from core.language import phrase, say
+from core.quantities import Given, Parameter, quantities
 from core.values import Floats, Point
 from core.venue import Ring
 

@@ -13,10 +13,10 @@ from app.wire.readings import bench_words, has_drawn_path
 from core.contact.answer import Outcome
 from core.dance import EndReason
 from core.design.pitch_search import JustifiedBy
-from core.errors import format_bound, format_number
 from core.failures import approach_words
 from core.language import Listed, Phrases, joined, phrase, say
 from core.plots import FEATURES
+from core.quantities import format_bound, format_number
 from core.shapes.engines import Engine
 
 # Sentences about contacts. With a margin benches in contact may be apart, and with a stray they only may touch.

@@ -32,8 +32,9 @@ from app.settings import Settings
 from core import Dance, Dragon, Spiral, Stray, TooLarge
 from core.display import NO_MEANING, meanings
 from core.dragon import BENCHES_MAX, wider_pin
-from core.errors import InvalidValue, format_number
+from core.errors import InvalidValue
 from core.names import TURNING, checked_name
+from core.quantities import format_number
 
 # Longer values are shortened in messages [characters].
 VALUE_LENGTH_MAX = 60

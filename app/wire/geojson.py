@@ -17,10 +17,11 @@ import numpy as np
 
 from app.wire.fields import short_json
 from core import Area, InvalidValue, Venue
-from core.errors import COORDINATE_MAX, Given, checked_member, checked_number
+from core.checks import COORDINATE_MAX, checked_member, checked_number
 from core.language import say
 from core.names import checked_name
 from core.proposal.gates import STREETS, GateUse
+from core.quantities import Given
 from core.shapes.engines import Polygons, thickened
 from core.values import Point
 from core.venue import EDGES_MAX, Ring, refuse_many_edges

@@ -12,9 +12,9 @@ import core
 from app.wire import answers
 from app.wire.fields import typed_fields
 from core.display import Readable
-from core.errors import format_number
 from core.language import Listed, Phrases, counted, say
 from core.plots import feature_words
+from core.quantities import format_number
 
 # Labels of fields, where they are not the words of their names, or no answer of a question has them.
 LABELS: Phrases = {

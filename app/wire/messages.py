@@ -17,8 +17,8 @@ from app.wire.fields import VALUE_LENGTH_MAX, Wire, extra_of, short_json
 from app.wire.numbers import number_of
 from app.wire.paths import KINDS
 from core import InvalidValue
-from core.errors import Clause, Given, Parameter, Quantity, Value, format_field
 from core.language import Phrases, phrase, say
+from core.quantities import Clause, Given, Parameter, Quantity, Value, format_field
 
 Model = TypeVar("Model", bound=BaseModel)
 # An object, in the words of JSON.

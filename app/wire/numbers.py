@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from core import InvalidValue
-from core.errors import Given, Parameter
+from core.quantities import Given, Parameter
 
 Number = TypeVar("Number", int, float)
 

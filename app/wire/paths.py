@@ -26,7 +26,7 @@ from app.wire.fields import (
     measure,
 )
 from core import InvalidValue, Route, Spiral
-from core.errors import Quantity
+from core.quantities import Quantity
 
 # A sharp zigzag of 1,000 points, or a route of 1,000 arcs, becomes a path in 0.02 s (measured 2026-11-21).
 POINTS_MAX = 1_000

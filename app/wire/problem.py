@@ -11,7 +11,8 @@ from typing import Any
 from pydantic import BaseModel, Field
 
 from app.wire.sentences import sentence_for
-from core.errors import BenchDragonError, Given, Parameter, Quantity, Value
+from core.errors import BenchDragonError
+from core.quantities import Given, Parameter, Quantity, Value
 
 PROBLEM_TYPE = "application/problem+json"
 # Errors beyond this number in one request are counted, not listed.

@@ -10,11 +10,11 @@ from core.contact.answer import Outcome
 from core.dance import EndReason
 from core.design.deepest_turn import TurnLimit
 from core.design.pitch_search import JustifiedBy, LimitedBy
-from core.errors import format_bound, format_number
 from core.failures import FailureKind, approach_words, area_approach_words, contact_failures, encounter_failures
 from core.language import Language, Listed, Phrases, counted, phrase, say, spoken
 from core.paths.clothoid_turn import ClothoidTurn
 from core.paths.turn import Turn
+from core.quantities import format_bound, format_number
 from core.tolerance.tolerance import Limit
 
 # What a smaller pitch leads to.

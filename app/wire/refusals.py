@@ -17,8 +17,8 @@ from app.wire.dances import TimeSteps
 from app.wire.paths import TurnFields
 from core import BenchDragonError, Dragon
 from core.dragon import BENCHES_MAX
-from core.errors import Quantity, quantities
 from core.paths.following import follows
+from core.quantities import Quantity, quantities
 
 # A request without an object of this name holds the object's fields itself.
 OUTER = re.compile(r"^(dragon|model|path|times)\.(?=[a-z])")

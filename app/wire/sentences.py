@@ -6,8 +6,9 @@ import math
 import re
 
 from app.wire.fields import LABELLED, extra_of
-from core.errors import BenchDragonError, Given, Parameter, Quantity, Value, format_field, message_of
+from core.errors import BenchDragonError
 from core.language import Phrases, say
+from core.quantities import Given, Parameter, Quantity, Value, format_field, message_of
 
 # What a place is, with # for an index: {number} is one more than the first of them.
 PLACES: Phrases = {

@@ -14,7 +14,7 @@ from typing import Any, Self
 
 from app.wire.fields import is_deeper, short_json
 from core import InvalidValue
-from core.errors import Given, Value
+from core.quantities import Given, Value
 
 # Escapes for the character NUL and for halves of characters; a text that holds one is refused.
 ESCAPES = re.compile(r"\\u(?:0000|[dD][89a-fA-F])")

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 from core.claims.claim import Claim
 from core.display import Readable
-from core.errors import Given, InvalidValue
+from core.errors import InvalidValue
 from core.language import Language, speaking
+from core.quantities import Given
 from core.words.claims import claim_words
 
 

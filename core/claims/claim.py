@@ -9,9 +9,9 @@ from typing import Self
 from core.dance import Dance, EndReason
 from core.display import Readable
 from core.dragon import Dragon
-from core.errors import format_bound, format_number
 from core.passages import Passage
 from core.paths.path import PathSummary
+from core.quantities import format_bound, format_number
 from core.values import Point
 
 # Most passages that a summary lists one by one [1], and most parts of a performance.

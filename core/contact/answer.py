@@ -11,11 +11,12 @@ from core.claims.certificate import WithClaim
 from core.claims.claim import ContactClaim
 from core.dance import Dance, EndReason, RunEnd
 from core.display import Readable, display
-from core.errors import InvalidValue, format_number
+from core.errors import InvalidValue
 from core.kernels import Ended
 from core.language import phrase, say
 from core.motion.trajectory import trajectory
 from core.paths.path import HeadState
+from core.quantities import format_number
 from core.shapes.rectangles import bench_outlines
 from core.values import Floats
 

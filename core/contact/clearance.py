@@ -17,11 +17,12 @@ from core.contact.stretch import GRAZE_WIDTH, Stretch, least_on
 from core.dance import Dance
 from core.display import Readable, display
 from core.dragon import Stray, checked_stray
-from core.errors import InvalidValue, or_about, question_about
+from core.errors import InvalidValue
 from core.kernels import Budget
 from core.language import counted, say
 from core.motion.trajectory import instants
 from core.performance import Performance
+from core.questions import or_about, question_about
 from core.tables import Column, Table, data_set
 from core.values import Floats
 

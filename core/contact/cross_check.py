@@ -15,11 +15,11 @@ from core.contact.answer import FirstContact, Outcome
 from core.contact.encounter_answer import FirstEncounter
 from core.dance import Dance
 from core.display import Readable, display
-from core.errors import or_about, question_about
 from core.kernels import Budget
 from core.language import say
 from core.motion.trajectory import trajectory
 from core.performance import Part
+from core.questions import or_about, question_about
 from core.shapes.engines import JUDGES, Engine, able, engine_pairs, unions_meet
 from core.shapes.overlaps import Verdict
 from core.shapes.reach import SHORT, Reach, reach

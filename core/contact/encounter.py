@@ -8,6 +8,7 @@ in one of the two separates them by more than the margin over all of [t, t'].
 from __future__ import annotations
 
 from core import kernels
+from core.checks import checked_number
 from core.claims.claim import PARTS_LISTED, ClaimKind, DanceSummary, EncounterClaim, PartSummary
 from core.contact.answer import CORNERS, EDGES, OUTCOMES, Feature, Outcome
 from core.contact.brackets import TOUCHES
@@ -17,12 +18,12 @@ from core.contact.stage import PROBED, Stage
 from core.contact.stage_march import EncounterMarch, beyond, to_fold
 from core.dance import EndReason
 from core.dragon import Stray
-from core.errors import checked_number, question_about
 from core.kernels import Budget, Ended
 from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
 from core.paths.path import HeadState
 from core.performance import Performance, PerformanceEnd
+from core.questions import question_about
 from core.values import Point
 
 # A feature with its dragon.

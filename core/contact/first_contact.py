@@ -16,6 +16,7 @@ from dataclasses import replace
 from functools import partial
 
 from core import kernels
+from core.checks import checked_number
 from core.claims.claim import BenchBetween, ClaimKind, ContactClaim, DanceSummary
 from core.contact.answer import CORNERS, EDGES, OUTCOMES, Evidence, Feature, FirstContact, Graze, Outcome
 from core.contact.between import holds_apart
@@ -24,12 +25,12 @@ from core.contact.search import MARGIN_MAX, ContactSearch, SearchInput
 from core.contact.stretch import first_met
 from core.dance import Clock, Dance, EndReason, RunEnd
 from core.dragon import Stray, checked_stray
-from core.errors import checked_number, or_about, question_about
 from core.kernels import Budget, Ended
 from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
 from core.paths.frame import WORLD
 from core.performance import Performance
+from core.questions import or_about, question_about
 
 
 @or_about(Performance, first_encounter)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import partial
 
+from core.checks import checked_list, checked_type
 from core.contact.answer import FirstContact
 from core.contact.first_contact import first_contact
 from core.dance import Dance
 from core.dragon import Stray
-from core.errors import checked_list, checked_type
 from core.kernels import Budget
 from core.threads import on_all_cores
 

@@ -17,12 +17,14 @@ from core.contact.stage_march import least_after
 from core.dance import checked_instants
 from core.display import Readable, display
 from core.dragon import Stray
-from core.errors import InvalidValue, OutsideRun, Quantity, bound, question_about
+from core.errors import InvalidValue, OutsideRun
 from core.kernels import Budget, Ended
 from core.kernels.results import Dip, Marched
 from core.language import counted, say
 from core.motion.trajectory import instants
 from core.performance import Performance
+from core.quantities import Quantity, bound
+from core.questions import question_about
 from core.tables import Column, Table
 from core.values import Floats
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core import kernels
+from core.checks import checked_number, checked_type
 from core.contact.answer import Outcome
 from core.contact.gaps import Pair
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, ContactSearch, SearchInput, before_fold
@@ -16,12 +17,12 @@ from core.contact.stretch import Stretch, first_met, least_on
 from core.dance import Dance
 from core.display import Readable, display
 from core.dragon import Stray, checked_stray
-from core.errors import checked_number, checked_type, question_about
 from core.kernels import Budget, Ended
 from core.language import say
 from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
 from core.paths.route import Route
+from core.questions import question_about
 from core.shapes.engines import inside
 from core.shapes.reach import gains
 from core.shapes.rectangles import bench_poses

@@ -28,19 +28,14 @@ from core.dance import Dance
 from core.design.turn_circle import checked_circle
 from core.display import Readable, display
 from core.dragon import Dragon, Stray, checked_stray, chord_values
-from core.errors import (
-    InvalidValue,
-    Quantity,
-    TooMuchWork,
-    quantities,
-    question_about,
-    too_much,
-)
+from core.errors import InvalidValue, TooMuchWork
 from core.kernels import Budget, Halted
 from core.language import phrase, say
 from core.paths.following import ARC_MOST, bends_widely, longest_arc
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
+from core.quantities import Quantity, quantities
+from core.questions import question_about, too_much
 from core.sampling import bisect
 from core.shapes.reach import reach
 

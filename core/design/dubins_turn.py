@@ -29,13 +29,15 @@ from core.design.turn_circle import CheckedCircle, checked_circle
 from core.design.turn_moves import least_bend
 from core.display import Readable, display
 from core.dragon import Dragon, chord_values
-from core.errors import InvalidValue, Quantity, quantities, question_about, too_much
+from core.errors import InvalidValue
 from core.kernels import Budget, Halted
 from core.language import say
 from core.paths.following import bends_widely
 from core.paths.pieces import LENGTH_MIN, Arc, Coil, Line, Piece
 from core.paths.route import Route
 from core.paths.turn import OUTSIDE
+from core.quantities import Quantity, quantities
+from core.questions import question_about, too_much
 from core.values import Floats, Point
 
 # Step of the grid of entry and exit radii, as a part of the circle's radius [1], and the width to which the shortest

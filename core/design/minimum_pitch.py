@@ -6,25 +6,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from core.checks import SIZE_MAX, checked_number, checked_size
 from core.contact.search import MARGIN_MAX
 from core.design.pitch_search import JustifiedBy, LimitedBy, PitchSearch, dragon_too_near
 from core.design.straight import Straight
 from core.design.ways import Ways
 from core.display import Readable, display
 from core.dragon import Dragon, Stray, checked_stray
-from core.errors import (
-    SIZE_MAX,
-    Given,
-    InvalidValue,
-    Quantity,
-    checked_number,
-    checked_size,
-    quantities,
-    question_about,
-)
+from core.errors import InvalidValue
 from core.kernels import Budget, Halted
 from core.language import say
 from core.paths.spiral import START_TURNS_MAX, Spiral, end_theta
+from core.quantities import Given, Quantity, quantities
+from core.questions import question_about
 
 # Largest number of dragons in one spiral, and of the benches of all together [1].
 DRAGONS_MAX = 100

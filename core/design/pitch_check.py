@@ -6,15 +6,17 @@ import math
 
 import numpy as np
 
+from core.checks import checked_number, checked_type
 from core.contact.cross_check import ContactCheck, judged_contact, judged_grounds, judged_poses
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.design.minimum_pitch import MinimumPitch, checked_dragons
 from core.design.pitch_search import LimitedBy
 from core.dragon import Dragon, Stray, checked_stray
-from core.errors import InvalidValue, checked_number, checked_type, question_about
+from core.errors import InvalidValue
 from core.kernels import Budget
 from core.paths.spiral import Spiral
+from core.questions import question_about
 from core.shapes.reach import reach
 
 # Distance of the judged pitches from the minimum [m]; see CHECK_TRAVEL of core/contact/cross_check.py.

@@ -10,27 +10,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from core import plots
+from core.checks import SIZE_MIN, checked_number, checked_size
 from core.contact.fold import ended_at_fold
 from core.contact.search import MARGIN_MAX, WORK_BUDGET, ContactSearch, SearchInput, before_fold
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
 from core.display import format_range
 from core.dragon import Dragon, chord_values
-from core.errors import (
-    SIZE_MIN,
-    Given,
-    InvalidValue,
-    Quantity,
-    TooMuchWork,
-    checked_number,
-    checked_size,
-    quantities,
-    question_about,
-    too_much,
-)
+from core.errors import InvalidValue, TooMuchWork
 from core.kernels import Budget, Ended, Halted
 from core.language import counted, say
 from core.paths.spiral import Spiral
+from core.quantities import Given, Quantity, quantities
+from core.questions import question_about, too_much
 from core.tables import Column, Table
 from core.values import Floats, Progress, unheard
 

@@ -7,14 +7,16 @@ from enum import StrEnum
 
 import numpy as np
 
+from core.checks import SIZE_MAX
 from core.contact.brackets import TOUCHES
 from core.contact.search import ContactSearch
 from core.design.pitch_bands import BORDER_WIDTH, Descent
 from core.design.straight import Straight, too_near
 from core.design.ways import CONTACT_WIDTH, Ways
-from core.errors import SIZE_MAX, InvalidValue, quantities
+from core.errors import InvalidValue
 from core.kernels import Ended, Halted
 from core.paths.spiral import Spiral
+from core.quantities import quantities
 from core.sampling import bisect
 
 # Distance below the proven bands at which an infeasible pitch is tried: the largest error of the answer [m of pitch].

@@ -27,7 +27,7 @@ from core.design.turn_moves import least_bend
 from core.design.turn_overlap import OverlapSearch, most_benches
 from core.display import Readable, display
 from core.dragon import Dragon, chord_values
-from core.errors import InvalidValue, Quantity, quantities, question_about, too_much
+from core.errors import InvalidValue
 from core.extremes.speed import checked_limit, maximum_head_speed
 from core.kernels import Budget, Halted
 from core.language import say
@@ -35,6 +35,8 @@ from core.motion.trajectory import trajectory
 from core.paths.clothoid_turn import ClothoidTurn
 from core.paths.following import bends_widely
 from core.paths.turn import Turn
+from core.quantities import Quantity, quantities
+from core.questions import question_about, too_much
 
 # Step of the grid of entry and exit radii, as a part of the circle's radius [1].
 GRID = 0.02

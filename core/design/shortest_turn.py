@@ -46,16 +46,13 @@ from core.design.turn_overlap import OverlapSearch, most_benches
 from core.design.turn_places import locally_shortest, starts
 from core.display import Readable, display
 from core.dragon import Dragon, Stray, checked_stray, chord_values
-from core.errors import (
-    InvalidValue,
-    Quantity,
-    question_about,
-    too_much,
-)
+from core.errors import InvalidValue
 from core.kernels import Budget, Halted
 from core.language import say
 from core.paths.following import bends_widely
 from core.paths.turn import RATIO_MAX, RATIO_MIN, Turn
+from core.quantities import Quantity
+from core.questions import question_about, too_much
 from core.values import Floats
 
 # Width of the bracket of the length [m].

@@ -7,9 +7,11 @@ import math
 import numpy as np
 
 from core import kernels
+from core.checks import SIZE_MAX
 from core.dragon import Dragon
-from core.errors import SIZE_MAX, InvalidValue, Parameter, Quantity, quantities
+from core.errors import InvalidValue
 from core.kernels.constants import FREE, NO_BOUND
+from core.quantities import Parameter, Quantity, quantities
 from core.values import Floats
 
 # Rounding of the bound, in units of the lengths in its sums, u = 2^-53 [1]. The relative error of k is at most 8 u,

@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from core.checks import SIZE_MIN
 from core.design.spans import Span, mean_value
 from core.design.turn_boxes import JUST, ROUNDING, Turns, sizes_of
 from core.design.turn_moves import coil_bend
-from core.errors import SIZE_MIN
 from core.paths.turn import RATIO_MAX, RATIO_MIN
 from core.sampling import bisect
 from core.values import Floats

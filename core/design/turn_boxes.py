@@ -30,8 +30,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from core.checks import SIZE_MAX
 from core.design.spans import Known, Span, angle_slopes, mean_value, parameters
-from core.errors import SIZE_MAX
 from core.paths.pieces import LENGTH_MIN
 from core.values import Floats
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from core.checks import checked_number
 from core.contact.search import MARGIN_MAX
-from core.errors import checked_number
 from core.paths.turn import RATIO_MAX, RATIO_MIN, Turn
 
 

@@ -13,9 +13,10 @@ from core.design.turn_bounds import least_entry
 from core.design.turn_circle import CheckedCircle, checked_circle
 from core.design.turn_moves import apart_from_circle
 from core.dragon import Dragon, chord_values
-from core.errors import Quantity, question_about, too_much
 from core.kernels import Budget, Halted
 from core.paths.turn import Turn
+from core.quantities import Quantity
+from core.questions import question_about, too_much
 
 
 @question_about("dragon", Dragon)

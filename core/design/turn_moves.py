@@ -28,9 +28,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import kernels
+from core.checks import SIZE_MIN
 from core.design.turn_boxes import Turns, can_be_drawn, sizes_of
 from core.dragon import Dragon
-from core.errors import SIZE_MIN
 from core.paths.turn import Turn
 from core.values import Floats
 

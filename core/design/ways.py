@@ -5,14 +5,17 @@ from __future__ import annotations
 import math
 
 from core import kernels
+from core.checks import SIZE_MIN
 from core.contact.fold import THETA_ROUNDING, ended_at_fold
 from core.contact.search import ContactSearch, SearchInput, before_fold
 from core.design.pitch_bands import Bands
 from core.dragon import Dragon
-from core.errors import SIZE_MIN, Quantity, TooMuchWork, quantities, too_much
+from core.errors import TooMuchWork
 from core.kernels import NO_BRACKET, Budget, Ended
 from core.kernels.results import Marched
 from core.paths.spiral import Spiral, end_theta
+from core.quantities import Quantity, quantities
+from core.questions import too_much
 
 # Half width of the bracket around a contact [m of head travel].
 CONTACT_WIDTH = 2e-11

@@ -10,10 +10,10 @@ import numpy as np
 from core.contact.gaps import PROFILE_STEP, SAMPLES
 from core.dance import Dance
 from core.display import Readable
-from core.errors import question_about
 from core.kernels import Budget
 from core.motion.trajectory import trajectory
 from core.paths.following import longest_arc
+from core.questions import question_about
 from core.sampling import dips
 from core.values import Floats
 

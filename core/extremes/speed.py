@@ -7,12 +7,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core import kernels
+from core.checks import checked_number
 from core.contact.search import ContactSearch, SearchInput
 from core.dance import Dance
 from core.display import Readable
-from core.errors import InvalidValue, Quantity, bound, checked_number, question_about
+from core.errors import InvalidValue
 from core.kernels import Budget, Judged
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Period
+from core.quantities import Quantity, bound
+from core.questions import question_about
 from core.sampling import bisect
 
 # Width of the proof: every handle stays below the highest rate found plus this [1]; the rate itself is good to 1e-12,

@@ -46,18 +46,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
+from core.checks import checked_list, checked_number, checked_point
 from core.claims.certificate import WithClaim
 from core.claims.claim import ClaimKind, GroundClaim
 from core.dance import Dance
 from core.display import Readable, WithArrays
 from core.dragon import Dragon
 from core.error_free import paired
-from core.errors import InvalidValue, checked_list, checked_number, checked_point, or_about, question_about
+from core.errors import InvalidValue
 from core.ground.tracks import Track, tracks
 from core.kernels import Budget
 from core.kernels.constants import CHORD, CORNER_PULL, FREE, HALF_LENGTH, HALF_WIDTH, LAG, PLACE_SPARE, RADIUS
 from core.language import counted, say
 from core.performance import Performance
+from core.questions import or_about, question_about
 from core.shapes.engines import GRID, GROWTH_MOST, Polygons, area_of, distance_from, united
 from core.shapes.rectangles import bench_outlines
 from core.values import Floats

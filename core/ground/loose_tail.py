@@ -20,15 +20,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core.checks import checked_count, checked_number
 from core.claims.certificate import WithClaim
 from core.claims.claim import ClaimKind, TailClaim
 from core.dance import Dance
 from core.display import WithArrays
 from core.dragon import Dragon, Stray, checked_stray
-from core.errors import checked_count, checked_number, question_about
 from core.ground.tracks import stretches
 from core.kernels import Budget
 from core.language import say
+from core.questions import question_about
 from core.shapes.engines import GROWTH_MOST, Polygons, area_of, thickened
 
 # Least and largest part of the excess that comes from the lines between points of the path [m].

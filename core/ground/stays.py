@@ -17,16 +17,18 @@ from typing import Any
 import numpy as np
 
 from core import kernels
+from core.checks import checked_number, checked_type
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.display import Readable, display
 from core.dragon import Stray, checked_stray
-from core.errors import InvalidValue, checked_number, checked_type, or_about, question_about
+from core.errors import InvalidValue
 from core.extremes.speed import highest_speed
 from core.kernels import Budget
 from core.language import counted, say
 from core.motion.trajectory import trajectory
 from core.performance import Performance
+from core.questions import or_about, question_about
 from core.shapes.engines import inside
 from core.shapes.reach import gains
 from core.shapes.rectangles import bench_poses, edge_frames, frames

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core.dance import Dance
-from core.errors import question_about
 from core.kernels import Budget
 from core.kernels.constants import CHAIN_COLUMNS, CHORD, LAG, SIZE_COLUMNS
+from core.questions import question_about
 from core.values import Floats
 
 # Travel of the head between two rows of a table of places [m], largest number of rows, and of finer tables at a time.

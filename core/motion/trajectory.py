@@ -12,11 +12,11 @@ from core import plots
 from core.dance import Clock, Dance, checked_instants
 from core.display import display, format_range
 from core.error_free import paired, two_product, two_sum
-from core.errors import or_about, question_about
 from core.kernels import Budget
 from core.language import say
 from core.paths.frame import WORLD
 from core.performance import Part, Performance
+from core.questions import or_about, question_about
 from core.shapes.rectangles import bench_outlines
 from core.tables import Column, Table, data_set
 from core.values import Floats

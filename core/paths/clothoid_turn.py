@@ -7,10 +7,12 @@ from functools import cached_property
 
 import numpy as np
 
-from core.errors import SIZE_MIN, InvalidValue, checked_number, quantities
+from core.checks import SIZE_MIN, checked_number
+from core.errors import InvalidValue
 from core.paths.pieces import Clothoid
 from core.paths.route import Route
 from core.paths.turn import OUTSIDE, Turn
+from core.quantities import quantities
 from core.values import Floats, Point
 
 # Longest step in which the clothoids grow from the arcs of a turn [m], and most of Newton's steps in each.

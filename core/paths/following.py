@@ -10,10 +10,11 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import InvalidValue, Quantity, quantities, say_value
+from core.errors import InvalidValue
 from core.kernels.constants import K_END, K_START, LAG, PIECE_KIND, REAR_COSINE_LEAST, S_END, S_START, Follows
 from core.language import phrase, say
 from core.paths.route import Route
+from core.quantities import Quantity, quantities, say_value
 from core.sampling import bisect
 from core.values import Floats
 

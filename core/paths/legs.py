@@ -10,11 +10,13 @@ from itertools import pairwise
 import numpy as np
 
 from core import kernels
+from core.checks import SIZE_MAX, checked_list, checked_number, checked_size
 from core.display import REPR_MOST, Readable
-from core.errors import SIZE_MAX, Given, InvalidValue, checked_list, checked_number, checked_size
+from core.errors import InvalidValue
 from core.kernels import Budget
 from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Waypoints, checked_points, point_too_near
 from core.paths.route import CORNER_END, Route, too_sharp
+from core.quantities import Given
 from core.values import Floats, Point
 
 # Default radius of an arc at a corner [m].

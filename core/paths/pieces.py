@@ -9,19 +9,10 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
+from core.checks import SIZE_MIN, checked_angle, checked_list, checked_number, checked_point, checked_size
 from core.display import REPR_MOST, Readable
 from core.error_free import two_product, two_sum
-from core.errors import (
-    SIZE_MIN,
-    InvalidValue,
-    Quantity,
-    checked_angle,
-    checked_list,
-    checked_number,
-    checked_point,
-    checked_size,
-    quantities,
-)
+from core.errors import InvalidValue
 from core.kernels import Budget
 from core.kernels.constants import (
     COIL_ARC_LOW,
@@ -47,6 +38,7 @@ from core.kernels.constants import (
 )
 from core.language import say
 from core.paths.cubics import cut
+from core.quantities import Quantity, quantities
 from core.values import Floats, Point
 
 # Least distance between two consecutive waypoints [m]: nearer ones are a mistake.

@@ -10,7 +10,7 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import InvalidValue, Quantity, Value, bound, quantities
+from core.errors import InvalidValue
 from core.kernels.constants import LAG
 from core.language import phrase
 from core.paths.following import (
@@ -26,6 +26,7 @@ from core.paths.following import (
 from core.paths.legs import Legs
 from core.paths.pieces import Arc, Line
 from core.paths.route import Route
+from core.quantities import Quantity, Value, bound, quantities
 from core.sampling import bisect
 from core.values import Floats
 

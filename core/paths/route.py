@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 
 from core import kernels
+from core.checks import checked_list, checked_number
 from core.display import REPR_MOST, TABLE_DIGITS, Readable, display
 from core.error_free import paired
-from core.errors import Given, InvalidValue, Parameter, Quantity, Value, checked_list, checked_number, too_much
+from core.errors import InvalidValue
 from core.kernels import Budget, Halted
 from core.kernels.constants import (
     CORNER,
@@ -35,6 +36,8 @@ from core.language import counted, say
 from core.paths.frame import WORLD
 from core.paths.path import Columns, HeadState, PathSummary
 from core.paths.pieces import Arc, Clothoid, Coil, Line, Piece
+from core.quantities import Given, Parameter, Quantity, Value
+from core.questions import too_much
 from core.values import Floats
 
 # Largest drawn distance from the start of a route [m], and number of points.

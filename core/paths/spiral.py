@@ -12,14 +12,16 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
+from core.checks import checked_angle, checked_number, checked_point, checked_size
 from core.display import TABLE_DIGITS, Readable, display
 from core.dragon import Dragon
 from core.error_free import paired
-from core.errors import Given, InvalidValue, checked_angle, checked_number, checked_point, checked_size
+from core.errors import InvalidValue
 from core.paths.frame import WORLD, Frame
 from core.paths.path import Columns, HeadState, PathSummary
 from core.paths.pieces import Coil
 from core.paths.route import Route
+from core.quantities import Given
 from core.sampling import bisect
 from core.values import Floats, Point
 

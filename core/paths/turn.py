@@ -8,10 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from core import kernels
+from core.checks import SIZE_MAX, SIZE_MIN, checked_number, checked_size
 from core.display import TABLE_DIGITS, display
-from core.errors import SIZE_MAX, SIZE_MIN, InvalidValue, Quantity, checked_number, checked_size, quantities
+from core.errors import InvalidValue
 from core.paths.pieces import LENGTH_MIN, Arc, Coil
 from core.paths.route import Route
+from core.quantities import Quantity, quantities
 from core.values import Floats, Point
 
 RATIO_MIN = 0.01

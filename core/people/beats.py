@@ -18,9 +18,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from core.checks import checked_count, checked_number, checked_type
 from core.display import Readable
-from core.errors import Given, InvalidValue, Quantity, checked_count, checked_number, checked_type
+from core.errors import InvalidValue
 from core.passages import PASSAGES_MAX, Passage
+from core.quantities import Given, Quantity
 from core.values import Floats
 
 # Bars of a stretch, beats of a bar, tempo [beats/min] and step [m]: least and largest.

@@ -16,8 +16,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
+from core.checks import checked_type
 from core.display import Readable
-from core.errors import checked_type
 from core.people.cues import BenchCues, Meeting, Side, Turning
 
 # Most cues of a card, the beginning and the end among them.

@@ -20,14 +20,17 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from core.checks import checked_count, checked_number, checked_type
 from core.dance import Dance
 from core.display import Readable
-from core.errors import InvalidValue, Quantity, TooLarge, checked_count, checked_number, checked_type, question_about
+from core.errors import InvalidValue, TooLarge
 from core.kernels import Budget
 from core.language import phrase
 from core.motion.places import Passing, handle_places
 from core.passages import S_MAX
 from core.paths.path import Path
+from core.quantities import Quantity
+from core.questions import question_about
 from core.sampling import bisect, dips
 from core.values import Floats
 

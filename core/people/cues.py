@@ -22,19 +22,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from core.checks import checked_count, checked_number, checked_type
 from core.dance import Clock, Dance
 from core.display import Readable, display
-from core.errors import (
-    InvalidValue,
-    Quantity,
-    Value,
-    bound,
-    checked_count,
-    checked_number,
-    checked_type,
-    or_about,
-    question_about,
-)
+from core.errors import InvalidValue
 from core.kernels import Budget
 from core.language import counted, say
 from core.motion.places import handle_places
@@ -56,6 +47,8 @@ from core.people.meetings import (
 )
 from core.people.turns import bends_between
 from core.performance import STANDING, Performance
+from core.quantities import Quantity, Value, bound
+from core.questions import or_about, question_about
 from core.shapes.rectangles import bench_poses
 from core.values import Floats, Point
 

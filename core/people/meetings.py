@@ -33,9 +33,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.dance import Dance
-from core.errors import question_about
 from core.kernels import Budget
 from core.motion.trajectory import trajectory
+from core.questions import question_about
 from core.shapes.rectangles import bench_poses, frames, frames_separation
 from core.values import Floats
 

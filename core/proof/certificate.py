@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 from flint import __FLINT_VERSION__, __version__, ctx
 
+from core.checks import checked_type
 from core.dance import Dance
 from core.dragon import BENCHES_MAX, Dragon
-from core.errors import InvalidValue, OutsideRun, ProofRefused, checked_type
+from core.errors import InvalidValue, OutsideRun, ProofRefused
 from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim, refusing
 from core.proof.dances import DanceClearClaim, DanceContactClaim, last_stop
 from core.proof.members import CLAIMS, TEXT_MOST, refuse_malformed

@@ -10,9 +10,9 @@ from typing import Generic, TypeVar
 from flint import acb, arb
 
 from core.dragon import Dragon
-from core.errors import Quantity, format_number
 from core.proof.ground import AT_ONCE, ONE_BY_ONE, BenchGround, PolygonSide
 from core.proof.pairs import Benches, Size, TouchingLine, Unproven, above, below
+from core.quantities import Quantity, format_number
 
 # A guess from doubles is within this of its root [rad]; an interval Newton step verifies it.
 GUESS_RADIUS = 1e-8

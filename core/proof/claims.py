@@ -10,10 +10,11 @@ from typing import Any, ClassVar
 
 from flint import arb
 
+from core.checks import SIZE_MIN, checked_number, checked_size
 from core.contact.search import MARGIN_MAX
 from core.dance import checked_head_speed
 from core.dragon import Dragon
-from core.errors import SIZE_MIN, ProofRefused, Quantity, Value, checked_number, checked_size, format_number, quantities
+from core.errors import ProofRefused
 from core.language import phrase, say
 from core.paths.spiral import Spiral, end_theta
 from core.proof.chain import Chain, delta_guess
@@ -21,6 +22,7 @@ from core.proof.fold import verify_fold
 from core.proof.pairs import Unfinished, Unproven, above, below
 from core.proof.sweeps import AnyChain, SweepOverlap, proven_sweeps, searched_stretches
 from core.proof.words import apart_words, contact_words, danced_words, dragon_words, near_words, spiral_words
+from core.quantities import Quantity, Value, format_number, quantities
 from core.sampling import bisect
 from core.values import Progress
 

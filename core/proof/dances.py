@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 from flint import arb
 
 from core.dance import Dance, EndReason
-from core.errors import Given, InvalidValue, format_number
+from core.errors import InvalidValue
 from core.language import say
 from core.proof.claims import TIME_BRACKET, Claim, checked_margin, near_pair, settle, soon_after, verify_near
 from core.proof.fold import folding
@@ -19,6 +19,7 @@ from core.proof.paths import chain_on, core_path, path_words
 from core.proof.route import RouteChain
 from core.proof.sweeps import AnyChain
 from core.proof.words import apart_words, contact_words, danced_words
+from core.quantities import Given, format_number
 from core.values import Progress
 
 # Time after the stop of a claim by which the run is certainly over, if the claim includes the end: exact decimal [s].

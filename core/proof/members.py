@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from core.errors import Given, Parameter, ProofRefused, Quantity, Value, quantities
+from core.errors import ProofRefused
 from core.language import phrase
 from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim
 from core.proof.dances import ENDINGS, DanceClearClaim, DanceContactClaim
@@ -18,6 +18,7 @@ from core.proof.ground import ONE_BY_ONE, SIDES
 from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION, malformed
 from core.proof.paths import FREE_TURN, PIECES, POINTS, TURN
 from core.proof.strays import ToleranceClaim
+from core.quantities import Given, Parameter, Quantity, Value, quantities
 
 # The fewest and the most bits that a certificate may ask for. Its numbers are doubles, of 53 bits; the default dragon's
 # certificate is checked in 0.9 s with 96 bits, in 7.5 s with 4,096 (measured 2026-11-21).

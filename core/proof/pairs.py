@@ -7,7 +7,8 @@ from collections.abc import Iterable, Sequence
 
 from flint import acb, arb
 
-from core.errors import Parameter, ProofRefused, Value, fill_template
+from core.errors import ProofRefused
+from core.quantities import Parameter, Value, fill_template
 
 
 class Unfinished(Exception):

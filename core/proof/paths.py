@@ -14,7 +14,7 @@ from typing import Any
 from flint import acb, arb
 
 from core.dragon import Dragon
-from core.errors import InvalidValue, Parameter, Quantity, format_number
+from core.errors import InvalidValue
 from core.language import Listed, counted, say
 from core.paths import pieces
 from core.paths.clothoid_turn import ClothoidTurn
@@ -24,6 +24,7 @@ from core.paths.turn import Turn
 from core.proof.chain import Chain
 from core.proof.route import BallCoil, BallPath, Piece, RouteChain, turned
 from core.proof.words import spiral_words
+from core.quantities import Parameter, Quantity, format_number
 
 Record = Mapping[str, Any]
 

@@ -11,9 +11,9 @@ from itertools import pairwise
 from flint import acb, arb
 
 from core.dragon import Dragon
-from core.errors import Quantity, format_number
 from core.proof.chain import GUESS_RADIUS, Follower, coil_arc, coil_slope, coil_theta, delta, newton
 from core.proof.pairs import Benches, Unproven, above
+from core.quantities import Quantity, format_number
 
 # Newton steps towards a guess in doubles: each doubles the digits.
 GUESS_STEPS = 40

@@ -11,13 +11,14 @@ from flint import acb, arb
 
 from core.dance import Dance
 from core.dragon import checked_stray
-from core.errors import InvalidValue, Quantity, format_number
+from core.errors import InvalidValue
 from core.language import say
 from core.paths.spiral import Spiral
 from core.proof.chain import Chain
 from core.proof.claims import SpiralClaim, checked_pair, settle
 from core.proof.pairs import Benches, Unproven, above, below
 from core.proof.words import apart_words, danced_words, spiral_words
+from core.quantities import Quantity, format_number
 from core.tolerance.exhibit import Exhibit
 from core.values import Progress
 

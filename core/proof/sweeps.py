@@ -7,12 +7,13 @@ from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, TypeGuard
 
-from core.errors import Parameter, ProofRefused, quantities
+from core.errors import ProofRefused
 from core.proof.chain import Chain, SpiralStretch
 from core.proof.ground import AT_ONCE, ONE_BY_ONE, best_side
 from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION, Unfinished, Unproven, malformed
 from core.proof.route import RouteChain
 from core.proof.route_stretch import RouteStretch
+from core.quantities import Parameter, quantities
 from core.values import Progress
 
 # First width of a stretch, its growth after a success, and the width at which the search gives up [rad], [m].

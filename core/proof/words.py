@@ -5,8 +5,8 @@ from __future__ import annotations
 from itertools import groupby
 
 from core.dragon import Dragon
-from core.errors import format_number
 from core.language import counted, say
+from core.quantities import format_number
 
 # Largest number of runs of equal benches that are listed; beyond it only their number is given.
 RUNS_LISTED = 4

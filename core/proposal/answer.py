@@ -7,11 +7,11 @@ from enum import StrEnum
 
 from core.dance import Dance
 from core.display import Readable, display
-from core.errors import format_number
 from core.failures import Failure
 from core.judgement import Report
 from core.language import Phrases, counted, joined, phrase, say
 from core.proposal.figures import Figure
+from core.quantities import format_number
 from core.venue import Venue
 
 

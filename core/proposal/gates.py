@@ -10,18 +10,10 @@ from itertools import pairwise, permutations
 
 import numpy as np
 
+from core.checks import checked_angle, checked_list, checked_member, checked_number, checked_point, checked_type
 from core.display import Readable
-from core.errors import (
-    InvalidValue,
-    Quantity,
-    checked_angle,
-    checked_list,
-    checked_member,
-    checked_number,
-    checked_point,
-    checked_type,
-    quantities,
-)
+from core.errors import InvalidValue
+from core.quantities import Quantity, quantities
 from core.values import Floats, Point
 from core.venue import Area, Venue
 

@@ -8,19 +8,11 @@ from typing import Any, TypedDict, Unpack
 
 import numpy as np
 
+from core.checks import checked_count, checked_list, checked_member, checked_number, checked_type
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance, checked_head_speed
 from core.dragon import Dragon, Stray, checked_stray
-from core.errors import (
-    InvalidValue,
-    TooMuchWork,
-    checked_count,
-    checked_list,
-    checked_member,
-    checked_number,
-    checked_type,
-    question_about,
-)
+from core.errors import InvalidValue, TooMuchWork
 from core.extremes.speed import checked_limit
 from core.judgement import quick_check
 from core.kernels import Budget, Halted
@@ -30,6 +22,7 @@ from core.proposal.figures import CLOSED, Figure
 from core.proposal.free_ground import FreeGround
 from core.proposal.gates import Gate, checked_gates, ways_through
 from core.proposal.search import HEAD_SPEED, LAPS_MOST, Rated, Search, Wish, search_in
+from core.questions import question_about
 from core.sampling import bisect
 from core.values import Floats, Progress, unheard
 from core.venue import Venue

@@ -10,21 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from core.checks import SIZE_MAX, SIZE_MIN, checked_number
 from core.display import Readable, WithArrays, display
-from core.errors import (
-    SIZE_MAX,
-    SIZE_MIN,
-    Given,
-    InvalidValue,
-    Parameter,
-    Value,
-    checked_number,
-    from_to,
-    quantities,
-    question_about,
-)
+from core.errors import InvalidValue
 from core.kernels import Budget
 from core.language import Listed, counted, say
+from core.quantities import Given, Parameter, Value, from_to, quantities
+from core.questions import question_about
 from core.shapes.engines import JUDGES, Engine, able, engine_pairs
 from core.shapes.rectangles import Pairs, Separation, frames, frames_separation
 from core.values import Floats

@@ -48,8 +48,9 @@ from numpy.typing import NDArray
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import InvalidValue, Quantity
+from core.errors import InvalidValue
 from core.kernels.constants import DIRECTIONS
+from core.quantities import Quantity
 from core.values import Floats
 
 # Number of samples of psi on either side of 0 [1]: the supports are then too large by at most 2e-4 of the stray.

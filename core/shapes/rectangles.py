@@ -17,8 +17,10 @@ from numpy.typing import NDArray
 from core import kernels
 from core.display import WithArrays, display
 from core.dragon import Dragon
-from core.errors import InvalidValue, Quantity, TooLarge, question_about
+from core.errors import InvalidValue, TooLarge
 from core.kernels import Budget
+from core.quantities import Quantity
+from core.questions import question_about
 from core.values import Floats
 
 Pairs = NDArray[np.int64]

@@ -19,15 +19,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
+from core.checks import checked_type
 from core.claims.certificate import WithClaim
 from core.claims.claim import ClaimKind, ProbabilityClaim
 from core.dance import Dance
 from core.display import WithArrays, display
 from core.error_free import paired
-from core.errors import Given, InvalidValue, Quantity, checked_type, question_about, too_much
+from core.errors import InvalidValue
 from core.kernels import Budget, Halted
 from core.language import counted, say
 from core.motion.trajectory import trajectory
+from core.quantities import Given, Quantity
+from core.questions import question_about, too_much
 from core.shapes.reach import gains
 from core.tolerance.tolerance import tolerance
 from core.tolerance.union_bound import union_bound

@@ -9,13 +9,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from core import plots
+from core.checks import checked_size
 from core.dance import Dance
 from core.display import format_range
 from core.dragon import Dragon
-from core.errors import Given, InvalidValue, Quantity, TooMuchWork, checked_size, question_about, too_much
+from core.errors import InvalidValue, TooMuchWork
 from core.kernels import Budget
 from core.language import say
 from core.paths.spiral import Spiral
+from core.quantities import Given, Quantity
+from core.questions import question_about, too_much
 from core.tables import Column, Table
 from core.tolerance.tolerance import Tolerance, tolerance
 from core.values import Floats, Progress, unheard

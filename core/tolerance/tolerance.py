@@ -13,6 +13,7 @@ from enum import StrEnum
 
 import numpy as np
 
+from core.checks import checked_type
 from core.claims.certificate import WithClaim
 from core.claims.claim import BenchBetween, ClaimKind, DanceSummary, StrayClaim
 from core.contact.encounter_answer import EncounterEvidence
@@ -20,12 +21,12 @@ from core.contact.search import NEAR_WORK_BUDGET, before_fold
 from core.contact.walls import own_edges
 from core.dance import Dance
 from core.display import Readable, display
-from core.errors import checked_type, or_about, question_about
 from core.kernels import Budget
 from core.language import say
 from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
 from core.performance import Performance
+from core.questions import or_about, question_about
 from core.tolerance.between_dragons import Between, PerformanceExhibit
 from core.tolerance.exhibit import Body, Exhibit, exhibit
 from core.tolerance.safe import Field, SafeStray, held_stray

@@ -23,11 +23,12 @@ from functools import partial
 import numpy as np
 
 from core import kernels
+from core.checks import checked_number, checked_size
 from core.contact.search import ContactSearch, SearchInput
 from core.dragon import Dragon
-from core.errors import checked_number, checked_size, question_about
 from core.kernels import Budget
 from core.paths.spiral import Spiral
+from core.questions import question_about
 from core.sampling import bisect
 from core.shapes.reach import SUPPORT_ROUNDING, Reach, reach, ring_bounds
 

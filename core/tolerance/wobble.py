@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from core.checks import SIZE_MAX, checked_number
 from core.dance import Dance
 from core.display import Readable
 from core.dragon import wider_pin
-from core.errors import SIZE_MAX, InvalidValue, Parameter, Quantity, checked_number, quantities
+from core.errors import InvalidValue
+from core.quantities import Parameter, Quantity, quantities
 
 # Least number of instants in a correlation time [1].
 INSTANTS_PER_TIME = 5

@@ -26,10 +26,10 @@ from core.claims.claim import (
 )
 from core.dance import EndReason
 from core.display import format_range
-from core.errors import format_bound, format_number
 from core.language import Listed, counted, phrase, say, sense
 from core.passages import Passage
 from core.paths.path import PathSummary
+from core.quantities import format_bound, format_number
 
 PROOF = phrase(
     "Proven in steps, each by a bound on the second derivative of the gap along an axis fixed in a bench, and further "

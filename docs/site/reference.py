@@ -27,7 +27,7 @@ ROOMS = {
     "shapes": ("Rectangles and overlaps", ("core.shapes",)),
     "claims": ("What certificates claim", ("core.claims",)),
     "proof": ("Certificates in ball arithmetic", ("core.proof",)),
-    "errors": ("Errors, limits and budgets", ("core.errors", "core.kernels")),
+    "errors": ("Errors, limits and budgets", ("core.errors", "core.quantities", "core.kernels")),
 }
 # Names of types that are made of others, and so of no room.
 ALIASES = {"Piece": "paths", "Certificate": "proof"}

@@ -12,8 +12,8 @@ import numpy as np
 from flint import acb, arb
 
 from core import Dance, Dragon, InvalidValue, Route, Spiral, Turn, kernels
+from core.checks import SIZE_MAX, SIZE_MIN
 from core.contact.search import ContactSearch, SearchInput
-from core.errors import SIZE_MAX, SIZE_MIN
 from core.kernels.constants import ERROR, HALF_LENGTH, HALF_WIDTH, MX, MY, PX, PY, RADIUS, SWAY, UX, UY
 from tests.campaigns import hunting
 from tests.support.exact_chain import ExactRoute, separation, spiral_handles

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Dragon, Stray
+from core.checks import SIZE_MAX, SIZE_MIN
 from core.dragon import BENCHES_MAX, checked_stray
-from core.errors import SIZE_MAX, SIZE_MIN
 from tests.support.depth import thorough
 from tests.support.near import assert_near
 from tests.support.refused import refused

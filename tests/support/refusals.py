@@ -7,7 +7,7 @@ from pathlib import Path
 
 from babel.messages.pofile import read_po
 
-from core import errors
+from core import checks, errors, questions
 from core.language import clauses
 
 ROOT = Path(__file__).parent.parent.parent
@@ -32,7 +32,7 @@ def watch() -> set[str]:
         frame = currentframe().f_back
         if frame.f_code.co_name in ("renamed", "with_field"):  # the error was composed before
             return
-        while frame.f_code.co_filename in (errors.__file__, __file__):
+        while frame.f_code.co_filename in (checks.__file__, errors.__file__, questions.__file__, __file__):
             frame = frame.f_back
         if any(Path(frame.f_code.co_filename).is_relative_to(ROOT / room) for room in ("app", "core")):
             every = clauses(template) + clauses(reason)

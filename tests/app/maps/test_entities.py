@@ -11,8 +11,8 @@ from ezdxf.render.mleader import ConnectionSide
 
 from app.maps.places import places_of
 from core import InvalidValue
-from core.errors import Quantity
 from core.language import speaking
+from core.quantities import Quantity
 from tests.app.maps.test_maps import map_of, names, posted, things
 from tests.support.near import assert_near
 from tests.support.refusal_rows import assert_refused

@@ -15,7 +15,7 @@ from core import (
     Turn,
     trajectory,
 )
-from core.errors import Quantity
+from core.quantities import Quantity
 from tests.support.depth import examples
 from tests.support.near import assert_near
 from tests.support.random_routes import DRAGON, first_behind, routes

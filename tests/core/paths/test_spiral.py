@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Spiral
-from core.errors import SIZE_MAX, SIZE_MIN
+from core.checks import SIZE_MAX, SIZE_MIN
 from core.paths.spiral import START_TURNS_MAX
 from tests.support.refused import refused
 

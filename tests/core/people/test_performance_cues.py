@@ -20,8 +20,8 @@ from core import (
     bench_outlines,
     trajectory,
 )
-from core.errors import Quantity
 from core.people.meetings import EVEN
+from core.quantities import Quantity
 from tests.core.people.test_meetings import DANCES
 from tests.support.near import assert_near
 from tests.support.refused import refused

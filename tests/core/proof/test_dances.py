@@ -6,8 +6,9 @@ import pytest
 
 from core import Dance, Dragon, Legs, Line, Route, Spiral, Turn, first_contact
 from core.contact.clearance import least_clearance
-from core.errors import OutsideRun, ProofRefused, Quantity
+from core.errors import OutsideRun, ProofRefused
 from core.proof import prove_clear, prove_collision_time, prove_contact, verify
+from core.quantities import Quantity
 from tests.support.depth import thorough
 from tests.support.forgeries import assert_refused, stretches, through_json
 from tests.support.proof_routes import HAIRPIN, LOOP, OUTWARDS, TURNED

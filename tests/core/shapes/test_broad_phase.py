@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.errors import SIZE_MAX, TooLarge
+from core.checks import SIZE_MAX
+from core.errors import TooLarge
 from core.shapes.overlaps import Engine, overlaps
 from core.shapes.rectangles import CROSS_CANDIDATES_MAX, PAIRS_MAX, frames, meeting_pairs
 from tests.support.refused import refused

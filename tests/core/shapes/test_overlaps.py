@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.errors import SIZE_MAX, SIZE_MIN
+from core.checks import SIZE_MAX, SIZE_MIN
 from core.shapes.overlaps import POSITION_MAX, Engine, Verdict, cross_check, overlaps, separation, verdicts
 from tests.support.depth import examples
 from tests.support.refused import refused

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core import kernels
-from core.errors import SIZE_MAX, SIZE_MIN
+from core.checks import SIZE_MAX, SIZE_MIN
 from core.shapes.overlaps import separation
 from core.shapes.rectangles import bench_poses, corners, frames
 from tests.support.near import assert_near
