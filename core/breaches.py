@@ -129,6 +129,10 @@ def area_gaps(
 def _least_gap(boxes: Floats, edges: Floats) -> float:
     """The least gap between any rectangle and any edge [m]: those whose circles come nearest are measured first."""
     reach = np.hypot(boxes[:, kernels.FRAME_HALF_LENGTH], boxes[:, kernels.FRAME_HALF_WIDTH])
+    away, disc = _from_disc(boxes, edges)
+    # The one nearest to the middle is no further from an edge than the disc is wide.
+    candidates = away - reach <= float(away.min()) + 2.0 * disc
+    boxes, reach = boxes[candidates], reach[candidates]
     best = np.inf
     for edge in edges:
         low = _beside(boxes, edge) - reach
@@ -276,10 +280,19 @@ def _pairs(
             yield row[a], row[b], [t * benches + a, t * benches + b], need[close]
     flat = boxes.reshape(-1, boxes.shape[-1])
     need, far = (np.tile(column, len(boxes)) for column in (margin + strayed, reach))
-    for edge in (edge for area in edges for edge in area):
-        close = np.flatnonzero(_beside(flat, edge) <= far + need)
-        if len(close):
-            yield flat[close], np.tile(edge, (len(close), 1)), [close], need[close]
+    for area in edges:
+        beside = np.flatnonzero(_from_disc(flat, area)[0] <= far + need)
+        for edge in area:
+            close = beside[_beside(flat[beside], edge) <= (far + need)[beside]]
+            if len(close):
+                yield flat[close], np.tile(edge, (len(close), 1)), [close], need[close]
+
+
+def _from_disc(boxes: Floats, edges: Floats) -> tuple[Floats, float]:
+    """Distances (N,) of the centres of rectangles from a disc that holds edges, negative inside, and its radius [m]."""
+    middle = 0.5 * (edges[:, :2].min(axis=0) + edges[:, :2].max(axis=0))
+    radius = float((np.hypot(*(edges[:, :2] - middle).T) + edges[:, kernels.FRAME_HALF_LENGTH]).max())
+    return np.hypot(*(boxes[:, :2] - middle).T) - radius, radius
 
 
 def _beside(boxes: Floats, edge: Floats) -> Floats:

@@ -59,6 +59,8 @@ export class Questions {
   /** channel -> Problem */
   refusals = new Map();
   #rest = new Pause("questions");
+  /** True while a hand drags what is asked about: only the quick verdict follows it. */
+  isHeld = () => false;
   #latest = new Map();
   /** Charts near the view; the slow questions of other charts are not asked. */
   #near = new Set();
@@ -295,6 +297,7 @@ export class Questions {
   }
 
   #atRest() {
+    if (this.isHeld()) return this.#rest.begin(REST, () => this.#atRest());
     this.#askDance();
     if (this.#isFollowed || this.state.get("path") === "route") return;
     if (!this.#whole) this.#keep("minimum", "minimum-pitch", this.#over([...CIRCLE, ...CONTACT]));

@@ -218,10 +218,16 @@ def test_the_verdict_follows_the_hand_and_a_line_says_what_its_change_has_done(o
     y = canvas["y"] + 0.5 * canvas["height"] - 140
     mouse.move(x, y)
     mouse.down()
+    bodies = []
+    person.page.on("request", lambda one: bodies.append((one.url.rpartition("/")[2], one.post_data_json or {})))
     mouse.move(x, y + 80, steps=4)
     person.sees({"#change": "✕ The head touches elm", VERDICT: "Cannot be danced"})
     mouse.move(x, y + 40, steps=4)
     person.sees({"#change": "✓ Can be danced"})
+    # However long the hand stays, only what is quick is asked for until it lets go.
+    person.page.wait_for_timeout(1_000)
+    assert {name for name, _ in bodies} <= {"check", "course", "trajectory", "healthz"}
+    assert [body for name, body in bodies if name == "check" and body.get("details", True)] == []
     mouse.up()
     person.sees({"#change": re.compile(r"✓ “elm”: 2\.\d\d m free \(was 6\.\d\d\)")}).strikes("Escape").presses("#edit")
     person.sees({"#change": False})
