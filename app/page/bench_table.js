@@ -1,6 +1,6 @@
 /** The editor of a table of benches: it is typed, pasted, dropped or opened. */
 
-import { tableOf, tableText } from "./benches.js";
+import { tableOf, tableText } from "./read_table.js";
 import { $, bearer, make, textButton } from "./elements.js";
 import { LABELS } from "./fields.js";
 import { announce, announceRefusal } from "./overlays.js";

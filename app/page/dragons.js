@@ -3,7 +3,7 @@
 import { Problem, Superseded } from "./api.js";
 import { joined, offsetOf, shiftedPath } from "./changes.js";
 import { SPAN, announceOpened, leftWords, wishesIn, wishesOf } from "./files.js";
-import { benchesOf, numbersOfListed } from "./benches.js";
+import { benchesOf, numbersOfListed } from "./read_table.js";
 import { EMPTY, THINGS, drawingOf, fromAddress, keptVenueOf, venueOf } from "./drawing.js";
 import { $, button, download, hide, make, numberIn, textButton } from "./elements.js";
 import { CONTACT, DRAGON, TURN, numbersOf } from "./fields.js";

@@ -1,7 +1,7 @@
 /** Files of a drawn dance: opened, dropped on the picture, and saved. */
 
 import { tableOfFile } from "./bench_table.js";
-import { tableOf } from "./benches.js";
+import { tableOf } from "./read_table.js";
 import { Problem } from "./api.js";
 import { joined } from "./changes.js";
 import { chooseParts } from "./layers.js";

@@ -1,7 +1,7 @@
 /** The page's questions to the service: first contact, pose and minimum pitch at once, the others when input pauses. */
 
 import { Problem, Superseded } from "./api.js";
-import { numbersOfListed } from "./benches.js";
+import { numbersOfListed } from "./read_table.js";
 import { pathOf, placeOf, venueOf } from "./drawing.js";
 import { CONTACT, DRAGON, FIELDS, TURN, numbersOf } from "./fields.js";
 import { clockAtZero, timeAfter } from "./passages.js";

@@ -1,6 +1,6 @@
 /** The whole state of the page; its address holds every value that differs from the default. */
 
-import { benchesOf } from "./benches.js";
+import { benchesOf } from "./read_table.js";
 import { EMPTY, PARTS, fromAddress, toAddress } from "./drawing.js";
 import { FIELDS } from "./fields.js";
 import { beatsIn, beatsOf, clockIn, paceTexts, passagesIn } from "./passages.js";

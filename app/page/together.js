@@ -1,6 +1,6 @@
 /** Several dragons as texts of an address, presets of them, and what is loaded of each: its samples and its path. */
 
-import { tableOf } from "./benches.js";
+import { tableOf } from "./read_table.js";
 import { drawingOf, toAddress } from "./drawing.js";
 import { CONTACT, DRAGON, FIELDS } from "./fields.js";
 import { paceTexts } from "./passages.js";

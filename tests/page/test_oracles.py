@@ -29,7 +29,7 @@ QUESTIONS = ("collision_time", "minimum_pitch", "least_clearance", "shortest_tur
 
 
 def test_the_page_reads_the_sizes_of_a_table_as_the_service_does():
-    read = evaluate("async (tables) => tables.map((await page('benches.js')).benchesOf)", TABLES)
+    read = evaluate("async (tables) => tables.map((await page('read_table.js')).benchesOf)", TABLES)
     wanted = [bench_table(table)._asdict() for table in TABLES]
     assert read == [{name: value for name, value in one.items() if name != "lines"} for one in wanted]
 

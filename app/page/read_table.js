@@ -1,4 +1,4 @@
-/** Tables of benches measured one by one, in the service's format. */
+/** Reads tables of benches measured one by one, from text or a file, in the service's format. */
 
 /** First letters of the column names: the name, and the sizes in the order of a table. */
 const COLUMNS = { names: /^(name|名称|姓名)/i, lengths: /^(length|长)/i, widths: /^(width|宽)/i, overhangs: /^(overhang|孔距|端距)/i };
