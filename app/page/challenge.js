@@ -21,6 +21,8 @@ export class Challenge {
     this.words = make("p", { id: "challenge-words", ariaLive: "polite" });
     this.card = textButton("A card to share", () => this.#share(), { id: "challenge-card" });
     this.box = make("section", { id: "challenge", "aria-labelledby": "challenge-title" }, make("h3", { id: "challenge-title", "data-text": "How tight can you make it?" }), this.hint, this.words, this.card);
+    this.what = $(".what").cloneNode(true);
+    $("#controls").append(this.what);
     $("#dragons").before(this.box);
     this.show();
   }
@@ -33,7 +35,7 @@ export class Challenge {
   show() {
     const { dance, answers } = this.questions;
     const isOn = this.state.get("door") === "look" && dance?.kind === "spiral";
-    hide(this.box, !isOn);
+    for (const part of [this.box, this.what]) hide(part, !isOn);
     if (!isOn) return;
     writeTexts();
     this.hint.textContent = say("Drag the pitch. The head has to get to the circle in the middle, {diameter} m across, before two benches touch.", { diameter: this.#diameter });
@@ -47,7 +49,9 @@ export class Challenge {
     const best = this.#best.pitch;
     const least = answers.minimum?.answer.pitch;
     const tightest = least && best - least < NEAR ? say("You are at the limit: from {least} m on, every wider spiral gets there.", { least: bound(least, DECIMALS, 1) }) : "";
-    const now = gets ? say("At {pitch} m it gets there.", { pitch: fixed(pitch, DECIMALS) }) : far > 0 ? say("At {pitch} m they touch while the head is {far} m outside the circle.", { pitch: fixed(pitch, DECIMALS), far: fixed(far, 2) }) : "";
+    const at = fixed(pitch, DECIMALS);
+    const arrived = () => (answer.time === null ? say("✓ At {pitch} m the head gets to the circle, and nothing touches.", { pitch: at }) : say("✓ At {pitch} m the head gets to the circle. Two benches touch only after that, {inside} m farther in.", { pitch: at, inside: fixed(-far, 2) }));
+    const now = gets ? arrived() : far > 0 ? say("✕ At {pitch} m two benches touch while the head is still {far} m outside the circle.", { pitch: at, far: fixed(far, 2) }) : "";
     const record = best < Infinity ? say("Your tightest: {pitch} m.", { pitch: fixed(best, DECIMALS) }) : "";
     this.words.textContent = sentencesOf([now, gets && best === pitch ? tightest || say("Tighter?") : record]);
     hide(this.card, !gets || best !== pitch);

@@ -93,7 +93,12 @@ def shortest_turn(request: ShortestTurnQuery | ShortestTurnRequest, terms: Terms
         ratio = None if request.any_ratio else request.ratio
         result = core.shortest_turn(dragon, *circle, ratio, **about, budget=terms.budget)
         own = {"benches": None, "time": None, "scan_step": 0.0}
-    sentences = [turn_words(result.turn), limit_words(result.limited_by, request.margin, request.to_stray())]
+    on_circle = core.Turn(*circle, result.turn.ratio).length
+    sentences = [
+        turn_words(result.turn),
+        say("With both ends on the circle every ratio gives {length:.6f} m.", length=on_circle),
+        limit_words(result.limited_by, request.margin, request.to_stray()),
+    ]
     words = evidence.shortest_words(result, request, dragon) if terms.words else None
     said = {"stray": request.total_stray, "sentences": sentences, "words": words}
     return ShortestTurn.from_result(result, **said, **own, **Turn.of(result.turn).model_dump())

@@ -283,7 +283,14 @@ def shortest_words(result: core.ShortestTurn | core.DeepestTurn, request: Strays
         danced = phrase("none is shorter than {low} m; this one was danced: {high} m")
         facts.insert(0, _bracket(danced, result.length_bracket, 9))
         facts.append(_bracket(phrase("and leave from {low} m to {high} m from it"), result.exit_bracket, 9))
-    return _measured(near.title(say("Shortest turn")), result.turn.length, "m", 2, 6, facts=facts)
+    return _measured(
+        near.title(say("Shortest turn at ratio {ratio}", ratio=format_number(result.turn.ratio))),
+        result.turn.length,
+        "m",
+        2,
+        6,
+        facts=facts,
+    )
 
 
 def time_words(title: str, result: core.TurnTime, notes: list[str]) -> Words:

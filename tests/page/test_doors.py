@@ -95,14 +95,15 @@ def moves(person, x):
 
 
 def test_who_just_looks_is_asked_for_the_tightest_spiral_and_gets_a_card_of_it(open_page, server):
-    person = open_page("?door=look&lang=en&time=end").sees({"#challenge-words": "At 0.5500 m it gets there. Tighter?"})
+    wide = ["At 0.5500 m the head gets to", "Tighter?"]
+    person = open_page("?door=look&lang=en&time=end").sees({"#challenge-words": wide})
     person.types({"#pitch": "0.4502"}, "Tab")
     gone = polite.answer(server, "collision-time", pitch=0.4502)["head"]["radius"] - 4.5
-    words = f"they touch while the head is {gone:.2f} m outside the circle. Your tightest: 0.5500 m"
+    words = f"two benches touch while the head is still {gone:.2f} m outside the circle. Your tightest: 0.5500 m"
     person.sees({"#challenge-words": words, "#challenge-card": False})
-    person.types({"#pitch": "0.4504"}, "Tab").sees(
-        {"#challenge-words": "from 0.4504 m on, every wider spiral gets there"}
-    )
+    # At the limit benches touch too, but only inside the circle: the answers beside it say when.
+    limit = ["Two benches touch only after that", "from 0.4504 m on, every wider spiral gets there"]
+    person.types({"#pitch": "0.4504"}, "Tab").sees({"#challenge-words": limit, "#first-contact .value": "Contact at"})
     card = person.settles().saves("#challenge-card", "bench-dragon-0.4504.png")
     assert Image.open(BytesIO(card)).size == (1080, 1080)
     assert person.findings() == []
@@ -117,8 +118,10 @@ def test_behind_a_door_numbers_are_as_people_say_them_and_the_rest_is_one_step_a
         "#minimum-pitch .value": "45.04 cm",
         "#clock": "412.47 s",
     }
-    person.reads(people).sees({"#minimum-pitch button": False}).presses("#first-contact summary")
-    person.presses("#minimum-pitch summary").sees({"#minimum-pitch button": True})
+    # What limits it, and the button that uses it, stand beside the number; the evidence is one step away.
+    limits = "At a smaller pitch the head and body 19"
+    person.reads(people).sees({"#minimum-pitch button": True, "#minimum-pitch": limits})
+    person.sees({"#minimum-pitch dd": False}).presses("#first-contact summary", "#minimum-pitch summary")
     person.reads({"#first-contact dd": "Contact at 412.473838 s", "#minimum-pitch dd": "0.450337393 m"})
     # Each number is one Tab stop.
     person.focuses("#pitch")
