@@ -39,8 +39,10 @@ from app.wire.texts import text_to_cell
 from core import Budget, InvalidValue, TooMuchWork
 from core.language import Listed, say
 
-# Endings of the files that are graded in a folder.
+# Endings of the files that are graded in a folder, and of those that are graded where a folder has no others: of what
+# is handed in instead, for which there is a sentence.
 ENDINGS = (".xlsx", ".xlsm", ".xls", ".csv")
+INSTEAD = (".png", ".jpg", ".jpeg", ".pdf", ".doc", ".docx", ".numbers", ".et", ".ods")
 SUMMARY = ("file", "workbook", "verdict", "cells", "right", "missing", "diagnosis", "decimals")
 
 
@@ -127,6 +129,7 @@ def _row_of(file: Path, team: str, graded: FileAnswer, data: bytes) -> Row:
         missing,
         digest=hashlib.sha256(data).hexdigest(),
         rounded=sum(one.rounded for one in graded.sheets),
+        unusual=tuple(graded.unusual),
     )
 
 
@@ -150,8 +153,10 @@ def _paths_of(files: list[Path]) -> Iterator[Path]:
     """Files to grade; those of a folder sorted by path. raises: InvalidValue for a folder without any"""
     for file in files:
         if file.is_dir():
-            inside = sorted(path for path in file.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file())
-            visible = [path for path in inside if not path.name.startswith(("~$", "."))]
+            inside = sorted(path for path in file.rglob("*") if path.suffix.lower() in ENDINGS + INSTEAD)
+            visible = [path for path in inside if not path.name.startswith(("~$", ".")) and path.is_file()]
+            full = {path.parent for path in visible if path.suffix.lower() in ENDINGS}
+            visible = [path for path in visible if path.suffix.lower() in ENDINGS or path.parent not in full]
             if not visible:
                 words, values = "{folder} must hold a file that ends in {endings}", {"endings": Listed(ENDINGS)}
                 raise InvalidValue.in_words("files", words, got="a folder without any", folder=str(file), **values)

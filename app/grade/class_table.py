@@ -2,18 +2,20 @@
 
 Input: one row for each file, and the rubric as a teacher writes it. Output: the points, and remarks. State: none.
 
-A remark that two teams handed in the same file rests on its bytes alone: a workbook that was saved twice differs in its
-bytes, so that equal ones are copies, or were written by a program that writes the same for everyone, as this one does.
-A blank form is no remark: it holds nothing that anybody worked on.
+Equal bytes are pointed out: a workbook that was saved twice differs in its bytes, so that equal ones are copies, or
+were written by a program that writes the same for everyone, as this one does. A blank form is no remark, for it holds
+nothing that anybody worked on, nor are right numbers in plain text, which are the same for all. Files of different
+bytes are compared by their wrong numbers, the same cells of each: right ones are the same for all, wrong ones rarely.
 """
 
 from __future__ import annotations
 
 import csv
 import io
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 from app.grade.judged import Rating
 from app.grade.words import word
@@ -26,6 +28,8 @@ WORKBOOKS, ROUNDED = ("result1", "result2", "result4"), "rounded"
 DEFAULT = {"result1": 40.0, "result2": 20.0, "result4": 40.0, ROUNDED: 0.9}
 # Most points of a workbook, and decimals of points.
 POINTS_MAX, DECIMALS = 1000.0, 1
+# Fewest wrong numbers that two files share, and least share of those compared, so that it is pointed out.
+SHARED_LEAST, SHARED_SHARE = 3, 0.5
 
 
 @dataclass(frozen=True)
@@ -34,6 +38,7 @@ class Row:
 
     cells, right, rounded, missing: numbers of its cells that the contest requires, that are right, that are right to
         fewer decimals, and that are missing
+    unusual: some of its wrong numbers, as FileAnswer has them
     """
 
     team: str
@@ -45,6 +50,7 @@ class Row:
     missing: int
     digest: str = ""
     rounded: int = 0
+    unusual: tuple[str, ...] = ()
 
 
 def rubric_of(text: str) -> dict[str, float]:
@@ -96,11 +102,54 @@ def team_points(rows: Sequence[Row], rubric: dict[str, float]) -> list[tuple[str
     return sorted(points.items(), key=lambda one: (-one[1], one[0]))
 
 
-def alike(rows: Sequence[Row]) -> list[str]:
-    """A remark on each file that several teams handed in byte for byte, but for blank forms."""
-    groups: dict[str, list[Row]] = defaultdict(list)
+def remarks(rows: Sequence[Row]) -> list[tuple[list[Row], str]]:
+    """Files of several teams that are alike, each group with its remark: of equal bytes, then of wrong numbers."""
+    same = defaultdict(list)
     for row in rows:
-        if row.digest and row.missing < row.cells:
-            groups[row.digest].append(row)
-    together = [group for group in groups.values() if len({row.team for row in group}) > 1]
-    return [word("alike", files=str(Listed(f"{row.team}/{row.file}" for row in group))) for group in together]
+        if row.digest and row.missing < row.cells and not _is_plain(row):
+            same[row.digest].append(row)
+    groups = [group for group in same.values() if _teams(group) > 1]
+    found = [(group, word("alike", files=_names(group))) for group in groups]
+    whole = {frozenset(map(id, group)) for group in groups}
+    for group, shared in _sharing(rows):
+        if frozenset(map(id, group)) not in whole:
+            count, most = len(shared), min(len(row.unusual) for row in group)
+            values = {"files": _names(group), "count": count, "most": most, "number": min(shared)}
+            found.append((group, word("same_wrong", **values)))
+    return found
+
+
+def alike(rows: Sequence[Row]) -> list[str]:
+    """The remarks on files that are alike."""
+    return [words for _, words in remarks(rows)]
+
+
+def _is_plain(row: Row) -> bool:
+    """True for right numbers in plain text, which are the same bytes for everyone who writes them alike."""
+    return row.file.lower().endswith(".csv") and row.verdict in (Rating.RIGHT, Rating.ROUNDED)
+
+
+def _sharing(rows: Sequence[Row]) -> list[tuple[list[Row], set[str]]]:
+    """Groups of files of several teams in which most of the numbers compared are the same wrong ones, with these."""
+    holders: dict[str, list[int]] = defaultdict(list)
+    for k, row in enumerate(rows):
+        for number in row.unusual:
+            holders[number].append(k)
+    pairs = Counter(pair for some in holders.values() for pair in combinations(some, 2))
+    groups: list[set[int]] = []
+    for (a, b), count in sorted(pairs.items()):
+        least = min(len(rows[a].unusual), len(rows[b].unusual))
+        if rows[a].team != rows[b].team and count >= max(SHARED_LEAST, SHARED_SHARE * least):
+            near = [group for group in groups if group & {a, b}]
+            groups = [group for group in groups if group not in near] + [{a, b}.union(*near)]
+    sharing = [[rows[k] for k in sorted(group)] for group in groups]
+    shared = [(group, set.intersection(*(set(row.unusual) for row in group))) for group in sharing]
+    return [(group, numbers) for group, numbers in shared if numbers]
+
+
+def _teams(group: Sequence[Row]) -> int:
+    return len({row.team for row in group})
+
+
+def _names(group: Sequence[Row]) -> str:
+    return str(Listed(f"{row.team}/{row.file}" for row in group))

@@ -257,12 +257,26 @@ def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
     def led_by(law: Callable[[Floats], Floats]) -> Motion:
         return lambda t: right(head_at(law(t)))
 
+    for factor in (180.0 / math.pi, math.pi / 180.0):
+        for is_wrapped in (False, True):
+            turned = partial(_mixed_up, right, path, factor, is_wrapped)
+            yield Model("degrees", turned, {"factor": f"{factor:.4g}"})
     yield Model("arc_of_circle", led_by(circles))
     yield Model("steady_angle", led_by(steady))
     yield Model("euler_steps", led_by(explicit))
     for decimals in ANGLE_DECIMALS if many else ():
         what = f"theta of the head, {decimals} decimals"
         yield Model("rounded_early", led_by(partial(rounded_head, decimals)), {"what": what})
+
+
+def _mixed_up(right: Motion, path: Spiral, factor: float, is_wrapped: bool, times: Floats) -> Floats:
+    """Handles at the right distances from the centre, at so many times their angles. is_wrapped: of one turn each"""
+    numbers = right(times)
+    radii = np.hypot(numbers[..., 0], numbers[..., 1])
+    angles = radii / path.growth
+    angles = factor * (angles % (2.0 * math.pi) if is_wrapped else angles)
+    numbers[..., 0], numbers[..., 1] = radii * np.cos(angles), radii * np.sin(angles)
+    return numbers
 
 
 def _rounded_spirals(dance: Dance, path: Spiral) -> Iterator[Model]:

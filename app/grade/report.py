@@ -36,6 +36,7 @@ from app.grade.seen_paths import judged_by_turn
 from app.grade.sheets import tables_of
 from app.grade.shortcuts import UNITS, Finding, right_answer
 from app.grade.typed_number import plain_number
+from app.grade.unusual import unusual_of
 from app.grade.words import Note, note, word
 from app.wire.fields import Answer
 from core import Budget, InvalidValue, TooMuchWork
@@ -156,6 +157,8 @@ class FileAnswer(Answer):
     rubric: the rubric of the contest's reviewers
     notes: remarks for the reader, in words
     headline: the verdict in words
+    unusual: some wrong numbers that no common error gives, by which the files of a class are compared: x, y or v,
+        instant, number of the handle, and value
     """
 
     file: str
@@ -167,6 +170,7 @@ class FileAnswer(Answer):
     rubric: list[CriterionAnswer]
     notes: list[str]
     headline: str
+    unusual: list[str] = Field(default=[])
 
 
 class TypedAnswer(Answer):
@@ -282,6 +286,7 @@ def _graded(name: str, data: bytes, budget: Budget) -> FileAnswer:
         rubric=[CriterionAnswer(criterion=one.name, met=one.met, words=str(one.sentence)) for one in rubric],
         notes=[str(one) for one in notes],
         headline=_headline(verdict, judgements),
+        unusual=unusual_of(judgements, findings),
     )
 
 

@@ -96,7 +96,7 @@ async function digestOf(file) {
 export async function rowOf({ file, team }, graded) {
   const sum = (name) => (graded?.sheets ?? []).reduce((all, sheet) => all + sheet[name], 0);
   const finding = graded?.diagnosis[0]?.words ?? graded?.notes[0] ?? "";
-  return { team: (team || file.name).slice(0, 200), file: file.name.slice(-200), workbook: graded?.workbook ?? null, verdict: graded?.verdict ?? "unreadable", cells: sum("cells"), right: sum("right"), rounded: sum("rounded"), missing: sum("missing"), finding: finding.slice(0, 1_000), digest: await digestOf(file) };
+  return { team: (team || file.name).slice(0, 200), file: file.name.slice(-200), workbook: graded?.workbook ?? null, verdict: graded?.verdict ?? "unreadable", cells: sum("cells"), right: sum("right"), rounded: sum("rounded"), missing: sum("missing"), finding: finding.slice(0, 1_000), unusual: graded?.unusual ?? [], digest: await digestOf(file) };
 }
 
 /** The table of a class. */
@@ -126,18 +126,24 @@ export class ClassTable {
     }
   }
 
-  #body() {
-    return { files: this.#rows, rubric: this.#rubric };
+  #body(files = this.#rows) {
+    return { files, rubric: this.#rubric };
+  }
+
+  /** The rows in the order in which they are shown, each with its place in the class. */
+  #order() {
+    const { column, down } = this.#sorted;
+    const order = this.table.rows.map((row, k) => ({ row, k }));
+    if (column >= 0) order.sort((a, b) => (down ? -1 : 1) * (typeof a.row[column] === "number" ? a.row[column] - b.row[column] : String(a.row[column]).localeCompare(String(b.row[column]))));
+    return order;
   }
 
   #draw() {
     const { heads, rows, teams, notes } = this.table;
     const { column, down } = this.#sorted;
-    const order = rows.map((row, k) => ({ row, k }));
-    if (column >= 0) order.sort((a, b) => (down ? -1 : 1) * (typeof a.row[column] === "number" ? a.row[column] - b.row[column] : String(a.row[column]).localeCompare(String(b.row[column]))));
     const head = (words, k) => make("th", { scope: "col", "aria-sort": k === column ? (down ? "descending" : "ascending") : "none" }, button({ textContent: words }, () => this.#sort(k)));
     const line = ({ row, k }) => make("tr", {}, ...row.map((cell, place) => make("td", { className: typeof cell === "number" ? "number" : "" }, place === 1 ? button({ textContent: cell }, () => this.show(k)) : String(cell))));
-    const table = make("table", {}, make("thead", {}, make("tr", {}, ...heads.map(head))), make("tbody", {}, ...order.map(line)));
+    const table = make("table", {}, make("thead", {}, make("tr", {}, ...heads.map(head))), make("tbody", {}, ...this.#order().map(line)));
     const points = make("ol", { className: "teams" }, ...teams.map(([team, value]) => make("li", { textContent: say("{team}: {points} points", { team, points: value }) })));
     const chosen = make("input", { type: "file", accept: ".csv", hidden: true });
     chosen.addEventListener("change", async () => {
@@ -157,7 +163,7 @@ export class ClassTable {
   async #save(form) {
     const name = `class.${form}`;
     try {
-      download(await this.service.ask(`class ${form}`, "class-table", { body: this.#body(), accept: TYPES[form] }), name);
+      download(await this.service.ask(`class ${form}`, "class-table", { body: this.#body(this.#order().map(({ k }) => this.#rows[k])), accept: TYPES[form] }), name);
       announceSaved(name);
     } catch (error) {
       announceRefusal(error);

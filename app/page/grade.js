@@ -112,19 +112,19 @@ export class Grader {
 
 /**
  * What the service says of a file, or of an answer that was typed, with its boxes; null if another question took its place.
- * name: of the answer, with its text; file: a workbook
+ * name: of the answer, with its text; file: a workbook; team: which handed it in
  * @param {Service} service
  * @param {string} channel
- * @param {{ name?: string, text?: string, file?: File, language: string }} asked
+ * @param {{ name?: string, text?: string, file?: File, team?: string, language: string }} asked
  */
 export async function judge(service, channel, asked) {
-  const { name = "", text = "", file, language } = asked;
-  const title = file?.name ?? say(ANSWERS[name]);
+  const { name = "", text = "", file, team, language } = asked;
+  const title = file ? titleOf(file.name, team) : say(ANSWERS[name]);
   if (file?.size === 0) return { boxes: [refusedBox(title, say("The file is empty."))] };
   const query = file ? { name: file.name.slice(-200), language } : { [name]: text, language };
   try {
     const answer = await service.ask(channel, "grade", { query, file: file ?? new Blob(), headers: bearer() });
-    return { answer, boxes: boxes(answer) };
+    return { answer, boxes: boxes(answer, team) };
   } catch (error) {
     if (error instanceof Superseded) return null;
     if (!(error instanceof Problem)) throw error;
@@ -139,10 +139,13 @@ function refusedBox(title, textContent) {
 
 const paragraph = (textContent, className = "") => make("p", { textContent, className });
 
+/** The title of a file, with the team that handed it in. */
+const titleOf = (name, team) => (team ? `${team} / ${name}` : name);
+
 /** The boxes of one answer of the service. */
-function boxes({ files, answers }) {
+function boxes({ files, answers }, team) {
   const typed = answers.map((one) => box(one.title, one.verdict, one.headline, [...one.sentences.map((line) => paragraph(line)), ...diagnosis(one)]));
-  return [...typed, ...files.map(fileBox)];
+  return [...typed, ...files.map((file) => fileBox(file, team))];
 }
 
 function box(title, verdict, headline, content) {
@@ -156,11 +159,11 @@ function diagnosis({ diagnosis: certain, possible }) {
   return [...certain, ...possible].flatMap(({ words, evidence }) => [paragraph(words, "finding"), paragraph(evidence, "evidence")]);
 }
 
-function fileBox(file) {
+function fileBox(file, team) {
   const points = file.rubric.map(({ met, words }) => make("li", { className: `met-${met}`, textContent: words }));
   const rubric = make("details", {}, make("summary", { textContent: say("The points of the reviewers") }), make("ul", {}, ...points));
   const notes = file.notes.map((one) => paragraph(one));
-  return box(file.file, file.verdict, file.headline, [...notes, ...diagnosis(file), ...file.sheets.flatMap(sheetParts), ...(points.length ? [rubric] : [])]);
+  return box(titleOf(file.file, team), file.verdict, file.headline, [...notes, ...diagnosis(file), ...file.sheets.flatMap(sheetParts), ...(points.length ? [rubric] : [])]);
 }
 
 function sheetParts({ picture, sentences: [summary, ...others] }) {

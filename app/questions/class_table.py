@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import csv
 import io
+from typing import Annotated
 
 from pydantic import Field
 
 from app.files.tables import CSV_TYPE, XLSX_TYPE
 from app.files.workbooks import table_workbook
-from app.grade.class_table import Row, alike, points_of, rubric_of, rubric_text, team_points
+from app.grade.class_table import Row, points_of, remarks, rubric_of, rubric_text, team_points
 from app.grade.judged import Rating
 from app.grade.words import word
 from app.wire.fields import Answer, OneLine, Whole, Wire, measure
 from app.wire.question import JSON, Question, Terms
 from app.wire.texts import text_to_cell
+from core.language import joined
 
-# Most files of a class, cells of one, and characters of a rubric.
-FILES_MAX, CELLS_MAX, RUBRIC_MAX = 2_000, 1_000_000, 10_000
+# Most files of a class, cells of one, unusual numbers of one, and characters of a rubric.
+FILES_MAX, CELLS_MAX, UNUSUAL_MAX, RUBRIC_MAX = 2_000, 1_000_000, 40, 10_000
 
 
 class GradedFile(Wire, strict=True):
@@ -39,12 +41,20 @@ class GradedFile(Wire, strict=True):
     finding: str = Field("", max_length=1_000, description="The error behind wrong cells, in words")
     digest: OneLine = Field("", max_length=128, description="Digest of its bytes, such as SHA-256; empty: not compared")
 
+    unusual: list[Annotated[OneLine, Field(max_length=100)]] = Field(
+        [],
+        max_length=UNUSUAL_MAX,
+        description="Its numbers that are compared with those of others, as /grade gives them",
+    )
+
     def to_row(self) -> Row:
         rounded = self.rounded
         if rounded is None:
             rounded = self.cells - self.right - self.missing if self.verdict is Rating.ROUNDED else 0
         counts = {"cells": self.cells, "right": self.right, "rounded": rounded, "missing": self.missing}
-        return Row(self.team, self.file, self.workbook, self.verdict, **counts, digest=self.digest)
+        return Row(
+            self.team, self.file, self.workbook, self.verdict, **counts, digest=self.digest, unusual=tuple(self.unusual)
+        )
 
 
 class ClassTableRequest(Wire, strict=True):
@@ -63,7 +73,8 @@ class ClassTable(Answer):
     """A class on one table."""
 
     heads: list[str] = Field(
-        description="Heads of the columns: team, file, workbook, verdict, cells, right, points, finding"
+        description="Heads of the columns: team, file, workbook, verdict, cells, right, points, finding, rounded, "
+        "missing, points of the team, remark"
     )
     rows: list[list[str | int | float]] = Field(description="A row for each file, in its order")
     teams: list[list[str | float]] = measure("points", "Each team and its points, the most first")
@@ -71,13 +82,17 @@ class ClassTable(Answer):
     rubric: str = Field(description="The rubric as a file that a teacher may edit, as CSV")
 
 
-COLUMNS = ("team", "file", "workbook", "verdict", "cells", "right", "points", "finding")
+COLUMNS = (
+    *("team", "file", "workbook", "verdict", "cells", "right", "points", "finding"),
+    *("rounded", "missing", "team_points", "remark"),
+)
 
 
 def class_table(request: ClassTableRequest, terms: Terms, form: str) -> ClassTable | bytes:
     """The graded files of a class on one table, with points of every file and team, as JSON, CSV or a workbook."""
     rubric, rows = rubric_of(request.rubric), [one.to_row() for one in request.files]
     heads = [word(f"class_{name}") for name in COLUMNS]
+    teams, notes = dict(team_points(rows, rubric)), remarks(rows)
     table: list[list[str | int | float]] = [
         [
             row.team,
@@ -88,12 +103,17 @@ def class_table(request: ClassTableRequest, terms: Terms, form: str) -> ClassTab
             row.right,
             points_of(row, rubric),
             file.finding,
+            row.rounded,
+            row.missing,
+            teams[row.team],
+            joined([words for group, words in notes if any(row is one for one in group)]),
         ]
         for row, file in zip(rows, request.files, strict=True)
     ]
     if form == JSON:
-        teams: list[list[str | float]] = [[team, points] for team, points in team_points(rows, rubric)]
-        return ClassTable(heads=heads, rows=table, teams=teams, notes=alike(rows), rubric=rubric_text(rubric))
+        every: list[list[str | float]] = [[team, points] for team, points in teams.items()]
+        said = [words for _, words in notes]
+        return ClassTable(heads=heads, rows=table, teams=every, notes=said, rubric=rubric_text(rubric))
     if form == XLSX_TYPE:
         return table_workbook(word("class_sheet"), heads, table)
     cells = [[text_to_cell(cell) if isinstance(cell, str) else cell for cell in row] for row in table]

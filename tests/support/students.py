@@ -65,6 +65,14 @@ def equal_arcs():
     return np.asarray(Spiral().position(SPIRAL_TIMES[:, None] - back)), np.ones((301, 224))
 
 
+def in_degrees():
+    """The polar angles in degrees, given to a cosine that takes radians."""
+    position, speed = spiral()
+    radius = np.hypot(position[..., 0], position[..., 1])
+    angle = np.degrees(radius / B)
+    return np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=-1), speed
+
+
 def mirrored(results):
     return results[0] * [1.0, -1.0], results[1]
 

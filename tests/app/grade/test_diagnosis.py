@@ -46,6 +46,7 @@ KNOWN = {
     "central_difference": lambda: first(students.gradient(), whole=True),
     "rounded_early": lambda: first(spiral(pitch=0.0875 * 2.0 * np.pi)),
     "other_start": lambda: first(spiral(start_turns=15.0)),
+    "degrees": lambda: first(students.in_degrees()),
     "other_pitch": lambda: first(spiral(pitch=0.6, start_turns=8.8 / 0.6)),
     "other_speed": lambda: first(students.of(Dance(Dragon(), Spiral(), 1.2), SPIRAL_TIMES)),
     "ratio_inverted": lambda: fourth(turn(ratio=0.5)),
@@ -131,6 +132,16 @@ def test_an_error_of_no_known_kind_is_not_diagnosed(name):
     result = grade(UNKNOWN[name]())
     assert result.verdict == "wrong"
     assert result.diagnosis == []
+
+
+def test_files_are_compared_by_numbers_that_no_common_error_gives():
+    """The same cells of each file; none of a right one, a rounded one, or one with an error that many make."""
+    assert len(grade(first(noise())).unusual) == 24
+    assert grade(first(noise())).unusual == grade(first(noise())).unusual
+    assert len(grade(first(one_cell())).unusual) == 1
+    assert len(grade(first(spiral(pitch=0.5))).unusual) == 24
+    for common in (spiral(), rounded(spiral(), 3), spiral(dragon=Dragon(overhang=0.0)), students.outside(0.0)):
+        assert grade(first(common)).unusual == []
 
 
 def test_the_numbers_of_an_error_are_reported():

@@ -91,3 +91,24 @@ def test_only_equal_bytes_of_two_teams_are_pointed_out_and_no_blank_form():
     assert alike([row("Red", "a"), row("Red", "a")]) == []
     assert alike([row("Red", ""), row("Gold", "")]) == []
     assert alike([row("Red", "a", missing=10), row("Gold", "a", missing=10)]) == []
+    # Right numbers in plain text are the same for everyone who writes them alike.
+    assert alike([replace(one, file="result1.csv") for one in same]) == []
+
+
+def test_wrong_numbers_that_two_teams_share_are_counted_and_right_ones_accuse_nobody():
+    shared = tuple(f"x {k} s 12: 8.17344{k}" for k in range(4))
+    others = tuple(f"x {k} s 12: 5.17344{k}" for k in range(4))
+    rows = [
+        replace(row(team, digest), verdict=Rating.WRONG, unusual=unusual)
+        for team, digest, unusual in [
+            ("Red", "a", shared), ("Gold", "b", (*shared[:3], *others[3:])), ("Blue", "c", others), ("Green", "d", ()),
+            ("Red", "e", shared),
+        ]
+    ]  # fmt: skip
+    [remark] = alike(rows)
+    assert "in 3 of the 4 cells that were compared" in remark
+    assert "Red/result1.xlsx" in remark
+    assert "Gold/result1.xlsx" in remark
+    assert "Blue" not in remark
+    assert "cop" not in remark
+    assert alike([row(team, team) for team in ("Red", "Gold")]) == []
