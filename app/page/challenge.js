@@ -21,8 +21,8 @@ export class Challenge {
     this.words = make("p", { id: "challenge-words", ariaLive: "polite" });
     this.card = textButton("A card to share", () => this.#share(), { id: "challenge-card" });
     this.box = make("section", { id: "challenge", "aria-labelledby": "challenge-title" }, make("h3", { id: "challenge-title", "data-text": "How tight can you make it?" }), this.hint, this.words, this.card);
-    this.what = $(".what").cloneNode(true);
-    $("#controls").append(this.what);
+    this.feast = $(".feast").cloneNode(true);
+    $("#controls").append(this.feast);
     $("#dragons").before(this.box);
     this.show();
   }
@@ -35,7 +35,7 @@ export class Challenge {
   show() {
     const { dance, answers } = this.questions;
     const isOn = this.state.get("door") === "look" && dance?.kind === "spiral";
-    for (const part of [this.box, this.what]) hide(part, !isOn);
+    for (const part of [this.box, this.feast]) hide(part, !isOn);
     if (!isOn) return;
     writeTexts();
     this.hint.textContent = say("Drag the pitch. The head has to get to the circle in the middle, {diameter} m across, before two benches touch.", { diameter: this.#diameter });
