@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from enum import StrEnum
 from typing import TYPE_CHECKING
@@ -12,13 +13,14 @@ from core.claims.claim import ContactClaim
 from core.dance import Dance, EndReason, RunEnd
 from core.display import Readable, display
 from core.errors import InvalidValue
-from core.kernels import Ended
+from core.kernels import Ended, Witnesses
+from core.kernels.constants import FRONT, MX, UY
 from core.language import phrase, say
 from core.motion.trajectory import trajectory
 from core.paths.path import HeadState
 from core.quantities import format_number
 from core.shapes.rectangles import bench_outlines
-from core.values import Floats
+from core.values import Floats, Point
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -75,6 +77,25 @@ class Feature(Readable):
 
     def __str__(self) -> str:
         return plots.feature_words(self)
+
+
+def features(
+    met: Witnesses, benches: tuple[int, int], placed: Floats, centres: Sequence[Point]
+) -> tuple[tuple[int, Feature] | None, tuple[int, Feature] | None, Point]:
+    """The corner and the edge of two benches that meet, each with its side of the pair, 0 or 1; and where they do [m].
+
+    met: of kernels.bench_separation(); placed: (2, CHAIN_COLUMNS) both benches; centres: of their paths [m]
+    """
+    corner, edge, point = None, None, (float(met.ax), float(met.ay))
+    for side, feature in enumerate((met.feature_a, met.feature_b)):
+        (x, y, ux, uy), (cx, cy) = placed[side, MX : UY + 1].tolist(), centres[side]
+        centre_on_left = int(ux * (cy - y) - uy * (cx - x) > 0.0)
+        if feature >= FRONT:
+            edge = side, Feature(benches[side], EDGES[centre_on_left][feature - FRONT])
+        elif corner is None:
+            corner = side, Feature(benches[side], CORNERS[centre_on_left][feature])
+            point = (float(met.bx), float(met.by)) if side else point
+    return corner, edge, point
 
 
 @dataclass(frozen=True, slots=True, repr=False)

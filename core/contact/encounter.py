@@ -10,7 +10,7 @@ from __future__ import annotations
 from core import kernels
 from core.checks import checked_number
 from core.claims.claim import PARTS_LISTED, ClaimKind, DanceSummary, EncounterClaim, PartSummary
-from core.contact.answer import CORNERS, EDGES, OUTCOMES, Feature, Outcome
+from core.contact.answer import OUTCOMES, Feature, Outcome, features
 from core.contact.brackets import TOUCHES
 from core.contact.encounter_answer import EncounterEvidence, FirstEncounter, NearPass
 from core.contact.search import MARGIN_MAX, WORK_BUDGET
@@ -19,7 +19,6 @@ from core.contact.stage_march import EncounterMarch, beyond, to_fold
 from core.dance import EndReason
 from core.dragon import Stray
 from core.kernels import Budget, Ended
-from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
 from core.paths.path import HeadState
 from core.performance import Performance, PerformanceEnd
@@ -180,16 +179,7 @@ def _features(stage: Stage, time: float, rows: tuple[int, int]) -> tuple[tuple[O
     placed = stage.chains[PROBED]
     met = kernels.bench_separation(*rows, stage.own_sizes, placed)
     dragons, benches = stage.pair(*rows)
-    corner: Owned = (None, None)
-    edge, point = corner, (float(met.ax), float(met.ay))
-    for side, feature in enumerate((met.feature_a, met.feature_b)):
-        x, y, ux, uy = placed[rows[side], MX : UY + 1].tolist()
-        cx, cy = stage.players[dragons[side]].part.dance.path.frame.centre
-        centre_on_left = int(ux * (cy - y) - uy * (cx - x) > 0.0)
-        if feature >= FRONT:
-            edge = Feature(benches[side], EDGES[centre_on_left][feature - FRONT]), dragons[side]
-        elif corner[0] is None:
-            corner = Feature(benches[side], CORNERS[centre_on_left][feature]), dragons[side]
-            if side == 1:
-                point = (float(met.bx), float(met.by))
-    return (corner, edge), point, float(met.separation)
+    centres = [stage.players[k].part.dance.path.frame.centre for k in dragons]
+    corner, edge, point = features(met, benches, placed[list(rows)], centres)
+    owned = [(one[1], dragons[one[0]]) if one else (None, None) for one in (corner, edge)]
+    return (owned[0], owned[1]), point, float(met.separation)

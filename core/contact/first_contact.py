@@ -18,7 +18,7 @@ from functools import partial
 from core import kernels
 from core.checks import checked_number
 from core.claims.claim import BenchBetween, ClaimKind, ContactClaim, DanceSummary
-from core.contact.answer import CORNERS, EDGES, OUTCOMES, Evidence, Feature, FirstContact, Graze, Outcome
+from core.contact.answer import OUTCOMES, Evidence, Feature, FirstContact, Graze, Outcome, features
 from core.contact.between import holds_apart
 from core.contact.encounter import first_encounter
 from core.contact.search import MARGIN_MAX, ContactSearch, SearchInput
@@ -26,7 +26,6 @@ from core.contact.stretch import first_met
 from core.dance import Clock, Dance, EndReason, RunEnd
 from core.dragon import Stray, checked_stray
 from core.kernels import Budget, Ended
-from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
 from core.paths.frame import WORLD
 from core.performance import Performance
@@ -198,16 +197,9 @@ def _touching_features(
     """The corner and the edge that meet, the corner's place in the world frame [m], and the separation [m]."""
     search.place_leaders(travel, pair[1] + 1)
     met = kernels.bench_separation(*pair, search.own_sizes, search.placed)
-    corner, edge = None, None
-    for bench, feature in zip(pair, (met.feature_a, met.feature_b), strict=True):
-        x, y, ux, uy = search.placed[bench, MX : UY + 1].tolist()
-        centre_on_left = int(y * ux < x * uy)
-        if feature >= FRONT:
-            edge = Feature(bench, EDGES[centre_on_left][feature - FRONT])
-        elif corner is None:
-            corner = Feature(bench, CORNERS[centre_on_left][feature])
-    x, y = (met.bx, met.by) if corner and corner.bench == pair[1] else (met.ax, met.ay)
+    corner, edge, (x, y) = features(met, pair, search.placed[list(pair)], 2 * [(0.0, 0.0)])
     turned = search.path.head(travel).theta or 0.0
     cos, sin = math.cos(turned), math.sin(turned)
     point, frame = (float(x * cos - y * sin), float(x * sin + y * cos)), search.path.frame
-    return corner, edge, point if frame == WORLD else frame.point(*point), float(met.separation)
+    point = point if frame == WORLD else frame.point(*point)
+    return corner and corner[1], edge and edge[1], point, float(met.separation)

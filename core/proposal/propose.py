@@ -33,8 +33,8 @@ ORDER = (Figure.RING, Figure.SPIRAL, Figure.EIGHT, Figure.SERPENTINE, Figure.PAR
 BENCHES_MOST, COUNT_MOST = 2_000, 12
 # Shortest and longest time that a dance may be limited to [s].
 DURATIONS = (1.0, 86_400.0)
-# Number of halvings of a stray that find the largest one with which a dance passes its check [1].
-STRAY_HALVINGS = 10
+# Width to which the largest stray with which a dance passes its check is bisected, as a part of the one wished [1].
+STRAY_WIDTH = 2.0**-10
 # Default work of a question, about a minute [1].
 PROPOSE_WORK = 3e8
 # Accuracy of half the width of a way between gates [m], and work of one answer whether it is as wide as that [1].
@@ -304,11 +304,7 @@ def _allowed(search: Search, dance: Dance, stray: float) -> float:
 
     if passes(stray):
         return stray
-    low, high = 0.0, stray
-    for _ in range(STRAY_HALVINGS):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if passes(middle) else (low, middle)
-    return low
+    return bisect(lambda tried: not passes(tried), 0.0, stray, width=stray * STRAY_WIDTH)[0]
 
 
 def _fewer_benches(search: Search, venue: Venue, figures: Sequence[Figure]) -> Reason | None:
