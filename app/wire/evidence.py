@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from typing import Any
 
 from pydantic import Field
@@ -123,19 +124,25 @@ WORDS: Any = Field(
 )
 
 
+@cache
+def _form(name: str, has_stray: bool, has_margin: bool) -> str:
+    """The template of FORMS for contacts with a stray or a margin."""
+    kinds = ["_stray"] * has_stray + ["_near"] * has_margin + [""]
+    return next(FORMS[f"{name}{kind}"] for kind in kinds if f"{name}{kind}" in FORMS)
+
+
 class Contacts:
     """Words about contacts as a request defines them."""
 
     def __init__(self, request: Any, dragon: core.Dragon) -> None:
         self.stray, self.margin, self.dragon = request.to_stray(), request.margin, dragon
-        self._kinds = ["_stray"] * (self.stray > 0.0) + ["_near"] * (request.margin > 0.0) + [""]
+        touch = approach_words(self.margin, 0.0) if self.stray else ""
+        self._values = {"margin": format_number(self.margin), "touch": touch}
         self._by_play = request.hole > 0.0
 
     def worded(self, name: str, **values: Any) -> str:
         """A sentence of FORMS in the form for these contacts."""
-        form = next(key for key in (f"{name}{kind}" for kind in self._kinds) if key in FORMS)
-        touch = approach_words(self.margin, 0.0) if self.stray else ""
-        return say(FORMS[form], margin=format_number(self.margin), touch=touch, **values)
+        return say(_form(name, self.stray > 0.0, self.margin > 0.0), **self._values, **values)
 
     def title(self, words: str) -> str:
         """A title with the stray of the answer."""
