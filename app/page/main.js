@@ -391,7 +391,7 @@ async function openChallenge() {
 
 async function openSharing() {
   const { Sharing } = await parts.load("sharing");
-  sharing ??= new Sharing(state, parts);
+  sharing ??= new Sharing(state);
   sharing.open();
 }
 

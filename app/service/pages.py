@@ -19,6 +19,7 @@ from importlib.resources import files
 from mimetypes import guess_type
 from pathlib import Path
 from typing import Annotated, Any
+from urllib.parse import unquote
 
 import orjson
 from fastapi import FastAPI, Response
@@ -31,6 +32,7 @@ from starlette.responses import RedirectResponse
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
+from app.extras import require
 from app.service.negotiation import GZIPPED, accepted, tags_in
 from app.service.problems import CLOSE, Refused
 from app.wire.fields import LABELLED, extra_of
@@ -419,6 +421,17 @@ def add_pages(app: FastAPI) -> None:
     def worker(request: Request) -> Response:
         """The worker of a carrier's card, whose place says which pages it may answer for."""
         return reply_with(request.headers, *own.content("carrier_worker.js"))
+
+    @app.get("/code.svg", include_in_schema=False)
+    def code(request: Request) -> Response:
+        """The QR code of the address that the query is; 404 for one too long for a phone to read."""
+        require("paper", "code", "A QR code")
+        from app.files.codes import code_on_screen
+
+        picture = code_on_screen(unquote(request.url.query))
+        if picture is None:
+            raise HTTPException(status_code=404)
+        return reply_with(request.headers, picture, "image/svg+xml")
 
     @app.get("/guide", include_in_schema=False)
     async def guide() -> Response:

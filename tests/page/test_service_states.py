@@ -15,7 +15,7 @@ CONTACT = "#first-contact .value"
 OLD = (CONTACT, "#run-end .value", "#canvas", "#clearance .plot", "#rows")
 TITLES = ("#first-contact h3", "#run-end h3", "#clearance h2")
 # Parts with a file of each that tells that it has loaded.
-LATER = {"qr.js", "below.js", "below.css", "grade.js", "map.js", "drawn.js", "place.css", "propose.js"}
+LATER = {"below.js", "below.css", "grade.js", "map.js", "drawn.js", "place.css", "propose.js"}
 LATER |= {"sharing.js"}
 
 # Address and bytes of all that was loaded.
@@ -134,9 +134,9 @@ def test_the_page_is_light_and_its_parts_load_when_a_person_first_needs_them(ope
 
     assert later() == set()
     person.presses("#share").sees({"#qr": True}).strikes("Escape")
-    assert later() == {"sharing.js", "qr.js"}
+    assert later() == {"sharing.js"}
     person.reaches_below()
-    assert later() == {"sharing.js", "qr.js", "below.js", "below.css", "grade.js", "map.js"}
+    assert later() == {"sharing.js", "below.js", "below.css", "grade.js", "map.js"}
     person.types({"#pitch": "55"}, "Tab").sees({"#pitch-error": "10 m"})
     person.presses("#reset-all", "[data-path=route]").sees({"#judgement .value": True})
     assert later() == LATER

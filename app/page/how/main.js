@@ -88,7 +88,7 @@ for (const button of $$("[data-lang]")) {
 onClick("#lost button", () => service.retry());
 addEventListener("look", () => figures.forEach((figure) => figure.draw()));
 addLook();
-new Sharing({ write, fits: true }, { load: () => import("../qr.js") });
+new Sharing({ write, fits: true });
 read();
 
 const language = address.searchParams.get("lang");

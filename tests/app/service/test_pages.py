@@ -8,7 +8,7 @@ import pytest
 
 from app.service.pages import Files
 
-FILES = ["/", "/how", "/page/main.js", "/page/uPlot.iife.js", "/docs", "/openapi.json"]
+FILES = ["/", "/how", "/page/main.js", "/page/uPlot.iife.js", "/docs", "/openapi.json", "/code.svg?http%3A%2F%2Fa%2F"]
 UNPACKED = {"Accept-Encoding": "identity"}
 PACKED = {"Accept-Encoding": "gzip"}
 
@@ -50,6 +50,7 @@ def test_a_page_has_its_words_before_its_modules_come(server, query, language, l
     [
         *("/page/nowhere.js", "/page/", "/page/how", "/page/../main.py", "/docs/assets/__init__.py"),
         *("/page/%00", "/docs/assets/%00", "/page-x/%00", "/page/%1b%5B2J%0d", f"/page/{300 * 'a'}"),
+        f"/code.svg?{1274 * 'a'}",
     ],
 )
 def test_only_files_of_the_pages_are_sent(server, path):
