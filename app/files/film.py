@@ -1,4 +1,4 @@
-"""Films of a dance, as MP4 (H.264, through PyAV) or as GIF (Pillow).
+"""Films of a dance or of several, as MP4 (H.264, through PyAV) or as GIF (Pillow).
 
 matplotlib draws the background and the numbers of benches once. For each frame the background is copied back, the
 benches are filled, and the numbers are laid on them. Meanwhile a second thread encodes the frames before. The same film
@@ -29,10 +29,11 @@ from app.files.film_labels import MARKED_SHARE, CornerText, Labels, LabelsBeside
 from app.files.film_planes import COLOURS, YUV, Paper, Tone
 from app.files.film_spec import MP4_TYPE, FilmSpec
 from app.files.fonts import families_for
-from app.files.looks import with_square
+from app.files.looks import colour_of, with_square
+from app.files.performances import LEGEND_MOST
 from app.files.scratch import temporary
 from app.wire.clocks import minutes_and_seconds, time_of_day
-from core import Budget, Dance, Dragon, Venue, bench_outlines, trajectory
+from core import Budget, Dance, Dragon, Performance, Trajectory, Venue, bench_outlines, trajectory
 from core.language import say
 from core.plots import BLUE, VERMILION, draw_dance
 from core.questions import question_about
@@ -41,6 +42,8 @@ from core.values import Floats
 DPI = 100
 # Size of the type, as a share of the height of the picture.
 TYPE_SHARE = 0.026
+# Place of the first name of several dragons and distance to the next, as shares of the height of the picture.
+NAME_AT, NAME_STEP = 0.97, 0.045
 # Empty space around the dragon, as a share of its extent; number of instants from which the extent is taken.
 AROUND, EXTENT_INSTANTS = 0.04, 60
 # Instants whose handles are computed at once.
@@ -101,36 +104,51 @@ def film(
     progress: called with the share of finished frames
     raises: OutsideRun; TooMuchWork where the budget is stopped; MissingPackage without a font for the language
     """
-    stage = FilmPicture(dance, spec, venue, title, tones_of(form), budget := budget or Budget())
-    return encoded(frames(stage, spec, budget), spec, form, progress)
+    return _filmed(dance, spec, form, venue, title, budget or Budget(), progress)
 
 
-def encoded(
-    pictures: Iterator[NDArray[np.uint8]], spec: FilmSpec, form: str, progress: Callable[[float], None]
+@question_about("performance", Performance, "the film was not drawn")
+def film_of_several(
+    performance: Performance,
+    spec: FilmSpec,
+    form: str,
+    *,
+    title: str = "",
+    budget: Budget | None = None,
+    progress: Callable[[float], None] = lambda share: None,
 ) -> bytes:
-    """The bytes of a film of these pictures. progress: as for film()"""
-    encode, sink = encoded_mp4 if form == MP4_TYPE else encoded_gif, io.BytesIO()
+    """The same of several dragons in their venue, each in its own colour with its name beside."""
+    return _filmed(performance, spec, form, performance.venue, title, budget or Budget(), progress)
+
+
+def _filmed(
+    filmed: Dance | Performance,
+    spec: FilmSpec,
+    form: str,
+    venue: Venue | None,
+    title: str,
+    budget: Budget,
+    progress: Callable[[float], None],
+) -> bytes:
+    tones, encode = (YUV, encoded_mp4) if form == MP4_TYPE else (COLOURS, encoded_gif)
+    stage, sink = FilmPicture(filmed, spec, venue, title, tones, budget), io.BytesIO()
     with encode(sink, spec) as take:
-        for k, frame in enumerate(pictures, start=1):
+        for k, frame in enumerate(frames(stage, spec, budget), start=1):
             take(frame)
             progress(k / spec.times.size)
     return sink.getvalue()
 
 
-def tones_of(form: str) -> tuple[Tone, ...]:
-    """The planes of a picture that the encoder of a form takes."""
-    return YUV if form == MP4_TYPE else COLOURS
-
-
 def frames(stage: FilmPicture, spec: FilmSpec, budget: Budget) -> Iterator[NDArray[np.uint8]]:
     """Pictures as FilmPicture.frame() gives them, each valid until the next one."""
-    times, dance = spec.times, stage.dance
+    times = spec.times
     for first in range(0, times.size, BATCH):
         some = times[first : first + BATCH]
-        outlines = bench_outlines(dance.dragon, trajectory(dance, some, budget=budget).position)
-        for k, (time, benches) in enumerate(zip(some, outlines, strict=True), start=first):
+        placed = zip(stage.dragons, stage.trajectories(some, budget), strict=True)
+        outlines = [bench_outlines(dragon, one.position) for dragon, one in placed]
+        for k, time in enumerate(some.tolist()):
             budget.look()
-            yield stage.frame(float(time), benches, spec.touching if k == times.size - 1 else None)
+            yield stage.frame(time, [own[k] for own in outlines], is_last=first + k == times.size - 1)
 
 
 class Layer(NamedTuple):
@@ -145,41 +163,52 @@ class Layer(NamedTuple):
 
 
 class FilmPicture:
-    """A picture that is drawn again for each frame: the stored background, then the benches and the time."""
+    """A picture that is drawn again for each frame: the stored background, then the benches and the time.
+
+    several: the performance, None for a single dance; dragons: all of the picture
+    """
 
     def __init__(
         self,
-        dance: Dance,
+        filmed: Dance | Performance,
         spec: FilmSpec,
         venue: Venue | None,
         title: str,
         tones: tuple[Tone, ...] = COLOURS,
         budget: Budget | None = None,
     ) -> None:
-        self.dance = dance
-        self.prepare(spec, venue, title, tones, budget)
-
-    def prepare(
-        self, spec: FilmSpec, venue: Venue | None, title: str, tones: tuple[Tone, ...], budget: Budget | None
-    ) -> None:
         """Draw the background, and make what moves before it. raises: Halted once the budget is stopped"""
+        self.filmed, self.several = filmed, filmed if isinstance(filmed, Performance) else None
+        self.dances = [filmed] if isinstance(filmed, Dance) else [part.dance for part in filmed.parts]
+        self.dragons = [dance.dragon for dance in self.dances]
         self.start_clock, self.spec = spec.start_clock, spec
         in_turn(lambda: self._draw(spec, venue, title, tones), budget)
 
+    def trajectories(self, times: Floats, budget: Budget | None = None) -> Sequence[Trajectory]:
+        """Where each dragon is."""
+        placed = trajectory(self.filmed, times, budget=budget)
+        return [placed] if isinstance(placed, Trajectory) else placed
+
     def draw_paths(self, times: Floats) -> Floats:
         """Draw what does not move; returns the places (N, 2) of handles at these times [m]."""
-        handles = trajectory(self.dance, times).position.reshape(-1, 2)
-        draw_dance(self.axes, self.dance.path, handles, np.empty((0, 4, 2)))
-        return handles
+        places = [one.position.reshape(-1, 2) for one in self.trajectories(times)]
+        for dance, own in zip(self.dances, places, strict=True):
+            draw_dance(self.axes, dance.path, own, np.empty((0, 4, 2)))
+        look: dict[str, Any] = {"transform": self.axes.transAxes, "zorder": 9, "parse_math": False, "va": "top"}
+        for k in range(min(len(places), LEGEND_MOST) if self.several else 0):
+            self.axes.text(0.015, NAME_AT - NAME_STEP * k, self.name_of(k), color=self.colours(k)[0], **look)
+        return np.concatenate(places)
 
-    @property
-    def dragons(self) -> list[Dragon]:
-        """All dragons of the picture."""
-        return [self.dance.dragon]
+    def name_of(self, dragon: int) -> str:
+        """Name of one of several dragons, or its number in words."""
+        return (self.several and self.several.parts[dragon].name) or say("dragon {k}", k=dragon)
 
     def colours(self, dragon: int) -> tuple[str, str, str, str]:
         """Colours of the head, of the body, of its edges, and of those of its numbers."""
-        return VERMILION, BLUE, BODY_EDGE, BLUE
+        if self.several is None:
+            return VERMILION, BLUE, BODY_EDGE, BLUE
+        own = colour_of(self.several, dragon)
+        return own, own, own, "black"
 
     def _draw(self, spec: FilmSpec, venue: Venue | None, title: str, tones: tuple[Tone, ...]) -> None:
         points, dragons = TYPE_SHARE * spec.height * 72.0 / DPI, self.dragons
@@ -241,23 +270,26 @@ class FilmPicture:
         ]
         return Layer((head, head_edge), (body, edge), words, drawn / widths[own], labels)
 
-    def frame(self, time: float, outlines: Floats, touching: tuple[int, int] | None = None) -> NDArray[np.uint8]:
-        """The picture, as Paper.picture, at one instant.
+    def touching(self) -> tuple[list[tuple[int, int]], str]:
+        """Dragon and number of the two benches that touch at the last instant, and that they do in words."""
+        if self.spec.touching is None:
+            return [], ""
+        dragons, (a, b) = self.spec.dragons or (0, 0), self.spec.touching
+        words = say("benches {a} and {b} touch\n", a=a, b=b)
+        if self.several:
+            dragon, second = map(self.name_of, dragons)
+            words = say(
+                "bench {bench} of {dragon} and bench {other} of {second} touch\n",
+                bench=a, dragon=dragon, other=b, second=second,
+            )  # fmt: skip
+        return [(dragons[0], a), (dragons[1], b)], words
 
-        outlines: (n, 4, 2) [m]; touching: the benches that are marked and named
+    def frame(self, time: float, outlines: Sequence[Floats], *, is_last: bool = False) -> NDArray[np.uint8]:
+        """The picture, as Paper.picture, at one instant [s].
+
+        outlines: (n, 4, 2) of each dragon [m]; is_last: mark and name the benches that touch then
         """
-        pairs = [(0, bench) for bench in touching or ()]
-        first = say("benches {a} and {b} touch\n", a=touching[0], b=touching[1]) if touching else ""
-        return self.compose(time, [outlines], pairs, first)
-
-    def compose(
-        self, time: float, outlines: Sequence[Floats], touching: Sequence[tuple[int, int]] = (), first: str = ""
-    ) -> NDArray[np.uint8]:
-        """The picture at one instant [s].
-
-        outlines: (n, 4, 2) of each dragon [m]; touching: dragon and number of the two benches that are marked
-        first: words before the time
-        """
+        touching, first = self.touching() if is_last else ([], "")
         wide, written = TOUCHING_SHARE * self.spec.height, list[Labels](self.names)
         self.paper.begin()
         for layer, own in zip(self.layers, outlines, strict=True):

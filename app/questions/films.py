@@ -93,8 +93,8 @@ def films(request: FilmRequest, terms: Terms, form: str = FORM) -> bytes:
 
 def _of_several(request: FilmRequest, terms: Terms, form: str) -> bytes:
     """A film of several dragons. Its drum is that of the first of them that has beats."""
+    from app.files import film
     from app.files.looks import COLOURS
-    from app.files.performance_film import performance_film
 
     rate, height = _checked_size(request, terms, form)
     performance, _ = request.to_placed(terms.settings)
@@ -107,7 +107,7 @@ def _of_several(request: FilmRequest, terms: Terms, form: str) -> bytes:
     music = shared_music(request.dances or [])
     spec = FilmSpec(start, stop, request.seconds, rate, height, clock, **look, **music)
     more: dict[str, Any] = {"budget": terms.budget, "progress": terms.progress}
-    return performance_film(performance, spec, form, title=request.title, **more)
+    return film.film_of_several(performance, spec, form, title=request.title, **more)
 
 
 def _marked(words: Sequence[int | str] | None, dragons: dict[int, Dragon]) -> tuple[tuple[int, int], ...]:

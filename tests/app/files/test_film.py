@@ -183,7 +183,7 @@ def test_a_film_counts_bars_and_beats_and_shows_the_time_of_day():
     dance = Dance(Dragon(3), Spiral(), 1.0, music.passages)
     stage = FilmPicture(dance, FilmSpec(0.0, 9.0, music=music, start_clock="19:30"), None, "")
     for instant, words in ((5.46, "bar 3 beat 2  19:30:05 (5.46 s)"), (8.5, "19:30:08 (8.50 s)")):
-        stage.frame(instant, outlines_of(dance, instant))
+        stage.frame(instant, [outlines_of(dance, instant)])
         assert stage.time.text == words
 
 
@@ -197,7 +197,7 @@ def test_the_head_and_every_tenth_bench_have_their_numbers():
     stage = FilmPicture(dance, FilmSpec(0.0, 300.0), None, "")
     for instant in (0.0, 171.3):
         outlines = outlines_of(dance, instant)
-        picture = stage.frame(instant, outlines)
+        picture = stage.frame(instant, [outlines])
         places = fronts(stage, outlines)
         for k, (_, left, top) in zip(range(0, 223, 10), stage.layers[0].labels[0].placed, strict=True):
             digits = pictures_of([str(k)], size_of(1080), BLUE, DPI)[0]
@@ -232,8 +232,8 @@ def village(height=540):
 def test_a_marked_bench_is_wide_enough_to_be_seen(height):
     stage, _ = village(height)
     for instant in (0.0, 40.0, 70.0, 90.0, 119.0):
-        outlines = outlines_of(stage.dance, instant)
-        picture = stage.frame(instant, outlines).astype(int)
+        outlines = outlines_of(stage.filmed, instant)
+        picture = stage.frame(instant, [outlines]).astype(int)
         front, rear = outlines[17].reshape(2, 2, 2).mean(axis=1)
         # Its front is dark, so the yellow is behind.
         shares = np.array([0.0, 0.5 * FRONT_SHARE, 0.5 * (1.0 + FRONT_SHARE), 1.0])[:, None]
@@ -250,7 +250,7 @@ def test_a_number_stands_on_the_outer_side_of_a_bend_and_does_not_flicker():
     changes = 0
     before = 0.0
     for instant in np.linspace(0.0, 119.0, 400):
-        outlines = outlines_of(stage.dance, instant)
+        outlines = outlines_of(stage.filmed, instant)
         numbers.place(outlines)
         changes, before = changes + (numbers.sides[0] != before), float(numbers.sides[0])
         middles = stage.axes.transData.transform(outlines[12:23].mean(axis=1))

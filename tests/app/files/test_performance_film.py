@@ -5,9 +5,9 @@ import json
 import pytest
 from matplotlib.colors import to_rgb
 
+from app.files.film import FilmPicture
 from app.files.film_spec import GIF_TYPE, FilmSpec
 from app.files.looks import colour_of
-from app.files.performance_film import PerformancePicture
 from app.questions.films import QUESTION, FilmRequest, shared_music
 from app.settings import Settings
 from app.wire.messages import checked
@@ -32,10 +32,10 @@ def film_of(body):
 
 
 def test_every_bench_is_drawn_in_the_colour_of_its_dragon():
-    stage = PerformancePicture(PERFORMANCE, FilmSpec(14.0, 30.0, height=720, start_clock="19:30"), "Lanterns")
+    stage = FilmPicture(PERFORMANCE, FilmSpec(14.0, 30.0, height=720, start_clock="19:30"), None, "Lanterns")
     for time in (14.0, 20.5):  # the second one still stands at the first time
         outlines = outlines_at(time)
-        picture = stage.picture(time, outlines)
+        picture = stage.frame(time, outlines)
         for k, own in enumerate(outlines):
             for x, y in stage.axes.transData.transform(own.mean(axis=1)):
                 colour = picture[round(len(picture) - 1 - y), round(x)] / 255.0
@@ -57,8 +57,9 @@ def outlines_at(time):
 )
 def test_the_benches_that_touch_are_named(language, words):
     with speaking(language):
-        stage = PerformancePicture(PERFORMANCE, FilmSpec(20.0, 30.0, height=180), "")
-        stage.picture(20.5, outlines_at(20.5), (0, 1), (2, 0))
+        spec = FilmSpec(20.0, 30.0, height=180, touching=(2, 0), dragons=(0, 1))
+        stage = FilmPicture(PERFORMANCE, spec, None, "")
+        stage.frame(20.5, outlines_at(20.5), is_last=True)
     assert stage.time.text.startswith(words)
 
 
@@ -82,7 +83,7 @@ def counted(dances, time):
     """The words of a picture at a time, before those of the time."""
     request = checked(FilmRequest, TWO | {"dances": dances})
     spec = FilmSpec(14.0, 18.0, height=90, **shared_music(request.dances or []))
-    stage = PerformancePicture(request.to_placed(Settings())[0], spec, "")
+    stage = FilmPicture(request.to_placed(Settings())[0], spec, None, "")
     return stage.words(time).partition("  ")[0]
 
 
