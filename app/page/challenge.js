@@ -4,8 +4,8 @@ import { $, download, hide, make, textButton } from "./elements.js";
 import { bound, fixed } from "./numbers.js";
 import { say, sentencesOf, writeTexts } from "./text.js";
 
-/** Decimals of a pitch, and how near the tightest one counts as it [m]: a step of the slider. */
-const [DECIMALS, NEAR] = [4, 1e-3];
+/** Decimals of a pitch, a step of the buttons, and how near the tightest one counts as it [m]. */
+const [DECIMALS, STEP, NEAR] = [4, 1e-3, 1e-3];
 /** Size of the card, its edge, and the height of its picture [px]. */
 const [SIDE, EDGE, HIGH] = [1080, 60, 690];
 
@@ -20,7 +20,8 @@ export class Challenge {
     this.hint = make("p", { className: "hint" });
     this.words = make("p", { id: "challenge-words", ariaLive: "polite" });
     this.card = textButton("A card to share", () => this.#share(), { id: "challenge-card" });
-    this.box = make("section", { id: "challenge", "aria-labelledby": "challenge-title" }, make("h3", { id: "challenge-title", "data-text": "How tight can you make it?" }), this.hint, this.words, this.card);
+    const steps = make("p", { className: "buttons" }, textButton("1 mm tighter", () => this.#step(-STEP)), textButton("1 mm wider", () => this.#step(STEP)), this.card);
+    this.box = make("section", { id: "challenge", "aria-labelledby": "challenge-title" }, make("h3", { id: "challenge-title", "data-text": "How tight can you make it?" }), this.hint, this.words, steps);
     this.feast = $(".feast").cloneNode(true);
     $("#controls").append(this.feast);
     $("#dragons").before(this.box);
@@ -38,7 +39,7 @@ export class Challenge {
     for (const part of [this.box, this.feast]) hide(part, !isOn);
     if (!isOn) return;
     writeTexts();
-    this.hint.textContent = say("Drag the pitch. The head has to get to the circle in the middle, {diameter} m across, before two benches touch.", { diameter: this.#diameter });
+    this.hint.textContent = say("Drag the pitch below, the distance from one turn of the spiral to the next. The head has to get to the circle in the middle, {diameter} m across, before two benches touch.", { diameter: this.#diameter });
     const { answer, query } = dance;
     const { pitch: text, ...others } = query;
     const [pitch, key] = [Number(text), JSON.stringify([others, this.#diameter])];
@@ -54,7 +55,12 @@ export class Challenge {
     const now = gets ? arrived() : far > 0 ? say("✕ At {pitch} m two benches touch while the head is still {far} m outside the circle.", { pitch: at, far: fixed(far, 2) }) : "";
     const record = best < Infinity ? say("Your tightest: {pitch} m.", { pitch: fixed(best, DECIMALS) }) : "";
     this.words.textContent = sentencesOf([now, gets && best === pitch ? tightest || say("Tighter?") : record]);
-    hide(this.card, !gets || best !== pitch);
+    this.card.disabled = !gets || best !== pitch;
+  }
+
+  /** Make the spiral wider by [m]. */
+  #step(by) {
+    this.state.set({ pitch: String(Number((Number(this.state.get("pitch")) + by).toFixed(DECIMALS))) });
   }
 
   /** Share the dance shown as a picture, or save it where there is no sheet to share. */

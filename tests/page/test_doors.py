@@ -101,7 +101,9 @@ def test_who_just_looks_is_asked_for_the_tightest_spiral_and_gets_a_card_of_it(o
     person.types({"#pitch": "0.4502"}, "Tab")
     gone = polite.answer(server, "collision-time", pitch=0.4502)["head"]["radius"] - 4.5
     words = f"two benches touch while the head is still {gone:.2f} m outside the circle. Your tightest: 0.5500 m"
-    person.sees({"#challenge-words": words, "#challenge-card": False})
+    person.sees({"#challenge-words": words, "#challenge-card[disabled]": True})
+    # A finger hits a slider to some millimetres: buttons go on in single ones.
+    person.presses("#challenge button:has-text('1 mm wider')").holds({"#pitch": "0.4512"})
     # At the limit benches touch too, but only inside the circle: the answers beside it say when.
     limit = ["Two benches touch only after that", "from 0.4504 m on, every wider spiral gets there"]
     person.types({"#pitch": "0.4504"}, "Tab").sees({"#challenge-words": limit, "#first-contact .value": "Contact at"})
