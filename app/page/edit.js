@@ -1,42 +1,21 @@
 /** Drawing on the picture: the points of one item are buttons to drag or to move by keys, and taps add points. */
 
-import { aligned, copied, figured, inserted, isFigure, left, moved, placesOf, pointsOf, shiftedAll, turned, withPoints, withThing, withoutThings } from "./changes.js";
+import { figured, inserted, isFigure, left, moved, placesOf, pointsOf, shiftedAll, withPoints } from "./changes.js";
+import { Chosen } from "./chosen.js";
 import { LANE_RADIUS, THINGS, freeName, isLine, place, yardOf } from "./drawing.js";
 import { $, $$, make, onClick } from "./elements.js";
+import { Grips } from "./grips.js";
+import { helpOf } from "./helps.js";
 import { announce } from "./overlays.js";
-import { crossesItself, extent, isInside, onBorder, rectangle, streetLength } from "./square.js";
-import { between, say } from "./text.js";
+import { crossesItself, onBorder, rectangle } from "./square.js";
+import { say } from "./text.js";
 import { Stroke } from "./stroke.js";
-import { decimetres, nearestLeg, squared, thingUnder, thingsWithin } from "./touch.js";
-
-/** What each tool does. @type {Phrases} */
-const HELPS = {
-  path: "Draw on the picture or tap it to extend the path, tap the path to insert a point, drag points and things to move them. Two fingers or the middle button of a mouse move the picture.",
-  area: "Tap the corners of the square one after another; drag them to move them.",
-  block: "Tap the corners of an obstacle one after another. Choose Obstacle again for the next one.",
-  circle: "Tap where a tree, a well or a person is; its radius is in the list “Square and obstacles”.",
-  wall: "Tap along the wall. Choose Wall again for the next one.",
-  lane: "Tap along the middle of a lane that stays free, such as one for ambulances; its radius is half of its width. The safety sheet says when benches are in it.",
-  several: "Tap things one after another, or drag a frame around them; then drag, copy, align or remove them together. With Shift, any tool does so.",
-  measure: "Tap two points: their distance stands between them.",
-  figure: "This path is a figure: drag it, or its handles, which turn it and make it larger or smaller. “Free it” makes points of it.",
-  kit: "Tap where each of them stands; then drag its handles, or type its numbers beside it.",
-  gate: "Tap the border: the dragon comes in or goes out there. Beyond it a straight street of about {length} m is added, as long as your dragon, which stands in it before or after the dance.",
-};
+import { FINE_STEP, KEYS, STEP, decimetres, nearestLeg, squared, thingUnder, thingsWithin } from "./touch.js";
 
 /** Largest movement of a press that is not a drag [px]; largest distance from the path, an edge or a thing of a tap that means it [px]. */
 const [TRAVEL, ON_PATH] = [3, 16];
 /** Distance between two points below which the second one is a dot [px]. */
 const NEAR = 24;
-/** What the buttons around a thing do. @type {Phrases} */
-const GRIPS = { size: "Larger or smaller", turn: "Turn this thing", move: "Move the figure" };
-/** Steps of their keys, alone and with Shift: radius [m], share of the size [1], angle [degrees]; distance from the thing [px]. */
-const [RADIUS_STEPS, SIZE_STEPS, TURN_STEPS, GRIP_FAR] = [[0.1, 0.01], [0.05, 0.01], [5, 1], 28];
-/** Distance of a copy from what was copied [px]. */
-const ASIDE = 40;
-/** Step of an arrow key that moves a point, alone and with Shift [m]. */
-const [STEP, FINE_STEP] = [0.1, 0.01];
-const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
 /** Tools of which every tap begins a new thing. */
 const ONE_POINT = ["circle", "gate"];
 const THINGS_INSIDE = ["gate", "circle", "wall", "block", "lane"];
@@ -45,29 +24,16 @@ const STRIDE = 0.15;
 const TREE_RADIUS = 0.5;
 const WALL_RADIUS = 0.15;
 
-export class Editor {
-  /** True if taps draw. */
-  active = false;
+export class Editor extends Chosen {
   tool = "path";
   /** What a tap with the tool puts ready-made: {kind, name, radius or size}; null without. @type {any} */
   kit = null;
-  /** The edited item: null for the path, else the number of a thing. */
-  item = null;
   /** Points between which a distance is measured, at most two [m]. @type {number[][]} */
   measured = [];
-  /** Further things that are chosen together with this one. @type {number[]} */
-  others = [];
-  /** True while taps add points to the edited thing; false after it was chosen by a touch. */
-  #isDrawing = false;
   #knots = [];
-  /** What a thing is made larger by and turned by: kind -> button. */
-  #grips = Object.fromEntries(Object.keys(GRIPS).map((kind) => [kind, this.#grip(kind)]));
   /** The frame that chooses things. */
   #frame = make("div", { className: "frame", hidden: true });
-  /** Copied things. */
-  #copy = [];
-  /** A mouse stands beside a keyboard. */
-  #hasKeys = matchMedia("(pointer: fine)");
+  #grips = new Grips(this, (event, kind) => this.#hold(event, { k: kind }), this.#dragging);
   #drag = null;
   /** @type {Stroke} */
   #stroke;
@@ -78,13 +44,10 @@ export class Editor {
    * @param {Steps} steps
    */
   constructor(dance, state, steps, course, chosen) {
-    this.dance = dance;
-    this.state = state;
-    this.steps = steps;
+    super(dance, state, steps, chosen);
     this.course = course;
-    this.chosen = chosen;
     this.box = $("#knots");
-    this.box.after(make("div", { id: "grips" }, this.#frame, ...Object.values(this.#grips)));
+    this.box.after(make("div", { id: "grips" }, this.#frame, ...Object.values(this.#grips.buttons)));
     dance.tapped = (x, y) => this.#tap(x, y);
     for (const button of $$("[data-tool]")) button.addEventListener("click", () => this.take(button.dataset.tool));
     onClick("#edit", () => this.turn(!this.active));
@@ -102,16 +65,8 @@ export class Editor {
   /** Add the points of a stroke at the end of the path. */
   #extend(points) {
     this.#last = null;
-    this.steps.take(points.reduce((drawing, point) => inserted(drawing, null, drawing.points.length, decimetres(point)), this.#drawing));
+    this.steps.take(points.reduce((drawing, point) => inserted(drawing, null, drawing.points.length, decimetres(point)), this.drawing));
     this.chosen();
-  }
-
-  get #drawing() {
-    return this.state.get("drawing");
-  }
-
-  get #isRoute() {
-    return this.state.get("path") === "route";
   }
 
   /** Begin or end drawing. */
@@ -131,32 +86,18 @@ export class Editor {
     return this.#drag?.far ? this.#drag.base : null;
   }
 
-  /** What a tap draws with the tool. */
-  get help() {
-    const words = say(HELPS[this.kit ? "kit" : this.hasFigure ? "figure" : this.tool], { length: this.tool === "gate" ? streetLength(this.state) : "" });
-    return this.#hasKeys.matches && this.tool !== "measure" && !this.hasFigure ? `${words}${say(" Keys: N puts the next point, arrows move it by 0.1 m, with Shift by 1 cm, Enter inserts one, Delete removes it.")}` : words;
-  }
-
   /** Draw with this tool from now on; a new obstacle begins with the next tap. kit: what a tap puts ready-made, or null */
   take(tool, kit = null) {
     [this.tool, this.kit, this.measured] = [tool, kit, []];
-    const area = this.#drawing.things.findIndex(({ kind }) => kind === "area");
+    const area = this.drawing.things.findIndex(({ kind }) => kind === "area");
     this.edit(tool === "area" && area >= 0 ? area : null);
   }
 
   /** Edit this item. */
   edit(item) {
     [this.item, this.others] = [item, []];
-    this.#isDrawing = true;
-    if (item !== null) [this.tool, this.kit] = [this.#drawing.things[item].kind, null];
-    this.chosen();
-  }
-
-  /** Choose a thing by a touch, whatever the tool, which goes on to draw on free ground; or several together. */
-  choose(item, others = []) {
-    this.active = true;
-    [this.item, this.others] = [item, others];
-    this.#isDrawing = false;
+    this.isDrawing = true;
+    if (item !== null) [this.tool, this.kit] = [this.drawing.things[item].kind, null];
     this.chosen();
   }
 
@@ -166,20 +107,9 @@ export class Editor {
     return Math.hypot(bx - ax, by - ay);
   }
 
-  /** Choose a thing beside those that are chosen already, or no longer. */
-  toggle(item) {
-    const items = this.items.includes(item) ? this.items.filter((one) => one !== item) : [...this.items, item];
-    this.choose(items[0] ?? null, items.slice(1));
-  }
-
   /** True while touches change the drawing. */
   get canEdit() {
-    return this.active && this.#isRoute;
-  }
-
-  /** The names of the chosen things. */
-  get names() {
-    return this.items.map((item) => this.#drawing.things[item].name).join(between());
+    return this.active && this.isRoute;
   }
 
   /** Choose the point or the thing at a place of the window [px], unless it is chosen already; what is held there is let go. */
@@ -189,119 +119,54 @@ export class Editor {
     const knot = document.elementFromPoint(x, y)?.closest(".knot");
     if (knot instanceof HTMLElement) knot.focus({ preventScroll: true });
     if (knot && !this.whole) return;
-    const item = this.#under(...this.#inBox(x, y));
+    const item = this.#under(...this.inBox(x, y));
     if (item === null || !this.items.includes(item)) this.choose(item);
-  }
-
-  /** A place of the window on the picture [px]. */
-  #inBox(x, y) {
-    const { left, top } = this.box.getBoundingClientRect();
-    return [x - left, y - top];
-  }
-
-  /** The numbers of the chosen things. @type {number[]} */
-  get items() {
-    return this.thing ? [this.item, ...this.others] : [];
-  }
-
-  /** The chosen thing; null without one. */
-  get thing() {
-    return this.active && this.#isRoute && this.item !== null ? this.#drawing.things[this.item] : null;
   }
 
   /** The chosen thing, unless taps on the picture still add points to it. */
   get whole() {
-    return this.others.length || (this.#isDrawing && this.thing && !ONE_POINT.includes(this.thing.kind)) ? null : this.thing;
+    return this.others.length || (this.isDrawing && this.thing && !ONE_POINT.includes(this.thing.kind)) ? null : this.thing;
   }
 
   /** True while the path is a figure, which is edited as a whole. */
   get hasFigure() {
-    return this.canEdit && this.item === null && this.tool === "path" && isFigure(this.#drawing) && this.#drawing.points.length > 0;
-  }
-
-  /** The figure as its mirror image. */
-  mirror() {
-    this.steps.take(figured(this.#drawing, { isMirrored: true }));
+    return this.canEdit && this.item === null && this.tool === "path" && isFigure(this.drawing) && this.drawing.points.length > 0;
   }
 
   get #isLine() {
-    return this.item === null || isLine(this.#drawing.things[this.item]);
+    return this.item === null || isLine(this.drawing.things[this.item]);
   }
 
   /** After a change of anything. */
   show() {
-    if (Math.max(this.item ?? 0, ...this.others) >= this.#drawing.things.length) [this.item, this.others] = [null, []];
-    const on = this.active && this.#isRoute;
+    if (Math.max(this.item ?? 0, ...this.others) >= this.drawing.things.length) [this.item, this.others] = [null, []];
+    const on = this.active && this.isRoute;
     $("#edit").setAttribute("aria-pressed", on);
     for (const button of $$("[data-tool]")) {
       button.hidden = !on;
       button.setAttribute("aria-pressed", button.dataset.tool === (this.kit ? "kits" : this.tool));
     }
-    $("[data-tool=gate]").disabled = !yardOf(this.#drawing).length;
+    $("[data-tool=gate]").disabled = !yardOf(this.drawing).length;
     $("#delete").hidden = !on;
     this.steps.changed();
     $("#delete").disabled = !this.#points.length;
     $("#draw-help").hidden = !on;
-    $("#draw-help").textContent = this.help;
+    $("#draw-help").textContent = helpOf(this);
     this.#fit();
   }
 
   /** The points of the edited item; those of the path only while the path itself is drawn. */
   get #points() {
-    if (!this.active || !this.#isRoute || this.others.length || this.hasFigure || (this.item === null && this.tool !== "path")) return [];
-    return pointsOf(this.#drawing, this.item);
-  }
-
-  get canPaste() {
-    return this.#copy.length > 0;
-  }
-
-  copy() {
-    this.#copy = this.items.map((item) => this.#drawing.things[item]);
-  }
-
-  /** Things like the copied ones beside them, which are chosen now. */
-  paste() {
-    this.duplicate(this.#copy);
-  }
-
-  /** The same with the first of them at a place of the window [px]. */
-  pasteAt(x, y) {
-    this.duplicate(this.#copy, this.dance.view.toWorld(...this.#inBox(x, y)));
-  }
-
-  /** Things like the chosen ones beside them, which are chosen now. things: others; point: where the first of them goes */
-  duplicate(things = this.items.map((item) => this.#drawing.things[item]), point = null) {
-    const copies = things.filter(({ kind }) => kind !== "area");
-    if (!copies.length) return;
-    const drawing = copies.reduce(copied, this.#drawing);
-    const items = copies.map((_, k) => this.#drawing.things.length + k);
-    const far = ASIDE / this.dance.view.scale;
-    const { middle } = extent(copies[0].points);
-    this.steps.take(shiftedAll(drawing, items, decimetres(point ? point.map((one, axis) => one - middle[axis]) : [far, -far])));
-    this.choose(items[0], items.slice(1));
-  }
-
-  /** Take the chosen things away. */
-  remove() {
-    const { items } = this;
-    if (!items.length) return;
-    [this.item, this.others] = [null, []];
-    this.steps.take(withoutThings(this.#drawing, items));
-    this.chosen();
-  }
-
-  /** Bring the chosen things into a row, a column, or equal gaps. */
-  align(how) {
-    this.steps.take(aligned(this.#drawing, this.items, how));
+    if (!this.active || !this.isRoute || this.others.length || this.hasFigure || (this.item === null && this.tool !== "path")) return [];
+    return pointsOf(this.drawing, this.item);
   }
 
   /** Arrow keys move what is chosen, and Delete removes it. */
   #nudge(event) {
-    if (!this.items.length || (this.#isDrawing && !this.others.length) || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (!this.items.length || (this.isDrawing && !this.others.length) || event.ctrlKey || event.metaKey || event.altKey) return;
     const way = KEYS[event.key];
     const by = event.shiftKey ? FINE_STEP : STEP;
-    if (way) this.steps.take(shiftedAll(this.#drawing, this.items, way.map((one) => one * by)), `nudge ${this.items}`);
+    if (way) this.steps.take(shiftedAll(this.drawing, this.items, way.map((one) => one * by)), `nudge ${this.items}`);
     else if (event.key === "Delete" || event.key === "Backspace") this.remove();
     else return;
     event.preventDefault();
@@ -310,7 +175,7 @@ export class Editor {
 
   /** Ctrl+C, Ctrl+V and Ctrl+D copy things, put copies beside them, or both at once; Escape leaves them. */
   #command(event) {
-    if (!this.active || !this.#isRoute || event.defaultPrevented || (event.target instanceof Element && event.target.matches("input, textarea, select"))) return;
+    if (!this.active || !this.isRoute || event.defaultPrevented || (event.target instanceof Element && event.target.matches("input, textarea, select"))) return;
     const key = event.key.toLowerCase();
     if (key === "escape" && this.thing && !$$(":popover-open, dialog[open]").length) this.leave();
     else if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
@@ -321,22 +186,13 @@ export class Editor {
     event.preventDefault();
   }
 
-  /** Choose nothing. */
-  leave() {
-    [this.item, this.others] = [null, []];
-    this.chosen();
-  }
-
   /** As many buttons as points, each with its name. */
   #fit() {
     const points = this.#points;
     while (this.#knots.length > points.length) this.#knots.pop().remove();
     while (this.#knots.length < points.length) this.box.append(this.#knot(this.#knots.length));
-    for (const [kind, grip] of Object.entries(this.#grips)) {
-      grip.hidden = this.hasFigure ? false : kind === "move" || !this.whole || (kind === "turn" ? points.length < 2 : points.length < 2 && this.thing.radius === undefined);
-      grip.setAttribute("aria-label", say(GRIPS[kind]));
-    }
-    const places = placesOf(this.#drawing, this.item);
+    this.#grips.show();
+    const places = placesOf(this.drawing, this.item);
     points.forEach(([x, y], k) => {
       this.#knots[k].hidden = !places.has(k);
       const label = say("Point {k} of {count}, x {x} m, y {y} m", { k: k + 1, count: points.length, x, y });
@@ -356,66 +212,11 @@ export class Editor {
       knot.classList.toggle("near", isNear);
       if (!isNear) shown.push([px, py]);
     });
-    this.#placeGrips();
+    this.#grips.place();
   }
 
-  /** Move the buttons around the thing to their places: beside it, and above it. */
-  #placeGrips() {
-    if (!this.whole && !this.hasFigure) return;
-    const { view } = this.dance;
-    const shown = (this.hasFigure ? this.#danced : this.whole.points).map((point) => view.toScreen(...point));
-    const reach = shown.length > 1 ? GRIP_FAR : Math.max((this.thing.radius ?? 0) * view.scale, GRIP_FAR);
-    const { width, height, middle } = extent(shown);
-    const places = { size: [middle[0] + width / 2 + reach, middle[1] + (shown.length > 1 ? height / 2 + reach : 0)], turn: [middle[0], middle[1] - height / 2 - 1.5 * reach], move: middle };
-    const inside = (at, size) => Math.min(Math.max(at, GRIP_FAR), size - GRIP_FAR);
-    for (const [kind, [x, y]] of Object.entries(places)) this.#grips[kind].style.transform = `translate(${inside(x, view.width)}px, ${inside(y, view.height)}px)`;
-  }
-
-  /** The points of a figure, without those in streets. */
-  get #danced() {
-    const { points } = this.#drawing;
-    const danced = points.filter((point) => isInside(yardOf(this.#drawing), point));
-    return danced.length > 1 ? danced : points;
-  }
-
-  #grip(kind) {
-    const onpointerdown = (event) => {
-      event.preventDefault();
-      this.#grips[kind].focus({ preventScroll: true });
-      this.#grips[kind].setPointerCapture(event.pointerId);
-      this.#hold(event, { k: kind });
-    };
-    const onkeydown = (event) => {
-      const way = KEYS[event.key];
-      if (!way || event.ctrlKey || event.metaKey || event.altKey) return;
-      event.preventDefault();
-      event.stopPropagation();
-      if (kind === "move") return this.steps.take(figured(this.#drawing, { by: way.map((one) => one * (event.shiftKey ? FINE_STEP : STEP)) }), "figure move");
-      const step = (way[0] + way[1]) * (kind === "turn" ? TURN_STEPS : this.hasFigure || this.#points.length > 1 ? SIZE_STEPS : RADIUS_STEPS)[Number(event.shiftKey)];
-      this.steps.take(this.#formed(this.#drawing, kind, step), `${this.item} ${kind}`);
-    };
-    return make("button", { type: "button", className: `grip ${kind}`, hidden: true, textContent: { size: "↔", turn: "↻", move: "✥" }[kind], onpointerdown, onkeydown, ...this.#dragging });
-  }
-
-  /** The drawing with the chosen thing larger by a step of its radius [m] or size [1], or turned by a step [degrees]. */
-  #formed(drawing, kind, step) {
-    if (this.hasFigure) return figured(drawing, kind === "turn" ? { angle: (step * Math.PI) / 180 } : { scale: Math.max(1 + step, SIZE_STEPS[1]) });
-    const { points, radius } = drawing.things[this.item];
-    if (kind === "turn") return turned(drawing, this.item, (step * Math.PI) / 180);
-    if (points.length > 1) return turned(drawing, this.item, 0, Math.max(1 + step, SIZE_STEPS[1]));
-    return withThing(drawing, this.item, { radius: Math.max(Number((radius + step).toFixed(2)), RADIUS_STEPS[1]) });
-  }
-
-  /** The drawing with the thing as large, or turned as far, as the pointer went about its middle. */
-  #around(event, { base, k, from }) {
-    const { left, top } = this.box.getBoundingClientRect();
-    const { points, radius } = this.hasFigure ? base : base.things[this.item];
-    const [x, y] = this.dance.view.toScreen(...extent(points).middle);
-    const [was, is] = [from, [event.clientX, event.clientY]].map(([px, py]) => [px - left - x, y + top - py]);
-    const [first, now] = [was, is].map((way) => Math.hypot(...way) || 1);
-    const rest = (number, steps) => steps[Number(event.altKey)] * Math.round(number / steps[Number(event.altKey)]);
-    if (k === "turn") return this.#formed(base, k, rest(((Math.atan2(is[1], is[0]) - Math.atan2(was[1], was[0])) * 180) / Math.PI, TURN_STEPS));
-    return this.#formed(base, k, points.length > 1 ? now / first - 1 : rest(radius + (now - first) / this.dance.view.scale, RADIUS_STEPS) - radius);
+  #formed(event, drag) {
+    return this.#grips.around(event, drag);
   }
 
   /** What a pressed button does while its pointer moves and when it is let go. */
@@ -433,7 +234,7 @@ export class Editor {
 
   /** A press on a thing, whatever the tool, takes this thing: it is edited, and moves with the pointer. */
   #seize(event) {
-    if (!this.active || !this.#isRoute || !event.isPrimary || (event.button && event.button !== 2)) return;
+    if (!this.active || !this.isRoute || !event.isPrimary || (event.button && event.button !== 2)) return;
     if (this.tool === "measure") return;
     const item = this.#under(event.offsetX, event.offsetY);
     const isSeveral = (event.shiftKey || this.tool === "several") && !event.button;
@@ -442,7 +243,7 @@ export class Editor {
       return this.#carry(event, null);
     }
     if (item === null && !isSeveral && !event.button && this.tool === "path" && !this.hasFigure) this.#stroke.begin(event);
-    if (item === null ? !isSeveral : item === this.item && this.#isDrawing && this.#points.length > 1) return;
+    if (item === null ? !isSeveral : item === this.item && this.isDrawing && this.#points.length > 1) return;
     event.stopPropagation();
     if (item === null) return this.#carry(event, "frame");
     const isChosen = this.items.includes(item);
@@ -450,7 +251,7 @@ export class Editor {
     if (isSeveral && (event.shiftKey || !isChosen)) this.toggle(item);
     else if (!isChosen || !this.others.length) this.choose(item);
     if (event.button || (isSeveral && event.shiftKey)) return;
-    if (!this.others.length && this.#drawing.things[item].points.length === 1) return this.#grab(event);
+    if (!this.others.length && this.drawing.things[item].points.length === 1) return this.#grab(event);
     this.#carry(event, null);
   }
 
@@ -465,7 +266,7 @@ export class Editor {
 
   /** Show the frame from where the pointer was pressed to where it is. */
   #framed(event, drag) {
-    drag.corners = [drag.from, [event.clientX, event.clientY]].map((place) => this.#inBox(...place));
+    drag.corners = [drag.from, [event.clientX, event.clientY]].map((place) => this.inBox(...place));
     const [[ax, ay], [bx, by]] = drag.corners;
     this.#frame.hidden = false;
     Object.assign(this.#frame.style, { transform: `translate(${Math.min(ax, bx)}px, ${Math.min(ay, by)}px)`, width: `${Math.abs(bx - ax)}px`, height: `${Math.abs(by - ay)}px` });
@@ -474,7 +275,7 @@ export class Editor {
   /** The thing at a place of the picture [px]. Gates are drawn on the border of the square, and paths and lanes across it. */
   #under(px, py) {
     const kinds = ["path", "gate", "lane"].includes(this.tool) ? THINGS_INSIDE : undefined;
-    return thingUnder(this.#drawing.things, this.dance.view, [px, py], kinds);
+    return thingUnder(this.drawing.things, this.dance.view, [px, py], kinds);
   }
 
   /** Take the point nearest to the pointer, because buttons of near points overlap. */
@@ -492,7 +293,7 @@ export class Editor {
 
   #hold({ pointerId: pointer, clientX, clientY }, drag) {
     this.dance.view.fitted = false;
-    this.#drag = { ...drag, pointer, from: [clientX, clientY], base: this.#drawing, far: false };
+    this.#drag = { ...drag, pointer, from: [clientX, clientY], base: this.drawing, far: false };
   }
 
   #pull(event) {
@@ -502,7 +303,7 @@ export class Editor {
     drag.far ||= Math.hypot(event.clientX - drag.from[0], event.clientY - drag.from[1]) > TRAVEL;
     if (!drag.far) return;
     if (drag.k === "frame") return this.#framed(event, drag);
-    const change = drag.k === null || drag.k === "move" ? this.#carried : drag.k in GRIPS ? this.#around : this.#bent;
+    const change = drag.k === null || drag.k === "move" ? this.#carried : drag.k in this.#grips.buttons ? this.#formed : this.#bent;
     const drawing = change.call(this, event, drag);
     if (change === this.#bent && this.#crosses(drawing) && !this.#crosses(drag.base)) {
       // The last one that does not cross itself stays.
@@ -541,10 +342,10 @@ export class Editor {
     this.#drag = null;
     this.#frame.hidden = true;
     if (drag?.corners) {
-      const items = [...new Set([...this.items, ...thingsWithin(this.#drawing.things, this.dance.view, ...drag.corners)])];
+      const items = [...new Set([...this.items, ...thingsWithin(this.drawing.things, this.dance.view, ...drag.corners)])];
       this.choose(items[0] ?? null, items.slice(1));
     } else if (drag?.k === "frame") this.leave();
-    else if (drag?.far) this.steps.take(this.#drawing, null, drag.base);
+    else if (drag?.far) this.steps.take(this.drawing, null, drag.base);
     else if (drag && typeof drag.k === "number" && this.#points.length > 1) announce(() => say("Point {k}: drag it, or delete it with ⌫. To add a point beside it, or to drag one that is a dot, enlarge the picture with + first.", { k: drag.k + 1 }));
   }
 
@@ -554,7 +355,7 @@ export class Editor {
     if (way) {
       const by = event.shiftKey ? FINE_STEP : STEP;
       const [x, y] = this.#points[k];
-      this.steps.take(moved(this.#drawing, this.item, k, [x + by * way[0], y + by * way[1]]), `${this.item} ${k}`);
+      this.steps.take(moved(this.drawing, this.item, k, [x + by * way[0], y + by * way[1]]), `${this.item} ${k}`);
       this.#reveal(k);
     } else if (event.key.toLowerCase() === "n") return this.#next(event);
     else if (event.key === "Enter") this.divide(k);
@@ -573,12 +374,12 @@ export class Editor {
     const { knots, s, x, y } = this.item === null ? (this.course() ?? {}) : {};
     const half = () => points[from].map((one, axis) => (one + points[next][axis]) / 2);
     const on = knots?.length === points.length ? s.findIndex((one) => one >= (knots[from] + knots[next]) / 2) : -1;
-    this.steps.take(inserted(this.#drawing, this.item, from + 1, on < 0 ? half() : [x[on], y[on]]));
+    this.steps.take(inserted(this.drawing, this.item, from + 1, on < 0 ? half() : [x[on], y[on]]));
     this.#knots[from + 1]?.focus({ preventScroll: true });
   }
 
   removePoint(k) {
-    this.steps.take(left(this.#drawing, this.item, k));
+    this.steps.take(left(this.drawing, this.item, k));
     this.#knots[Math.min(k, this.#knots.length - 1)]?.focus({ preventScroll: true });
   }
 
@@ -598,7 +399,7 @@ export class Editor {
 
   /** Handle the key that puts the next point without a pointer: it gets the focus, to be moved by arrow keys. */
   #next(event) {
-    if (["several", "measure"].includes(this.tool) || !this.active || !this.#isRoute || event.key.toLowerCase() !== "n" || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (["several", "measure"].includes(this.tool) || !this.active || !this.isRoute || event.key.toLowerCase() !== "n" || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     event.stopPropagation();
     const { view } = this.dance;
@@ -610,7 +411,7 @@ export class Editor {
   /** Place of the next point: the middle of the picture, or beyond the last point, for a thing with a turn to the left. */
   #after() {
     const { view } = this.dance;
-    const points = this.#isPut ? [] : pointsOf(this.#drawing, this.item);
+    const points = this.#isPut ? [] : pointsOf(this.drawing, this.item);
     if (!points.length || (this.item === null && this.tool !== "path")) return view.toWorld(view.width / 2, view.height / 2);
     const [[ax, ay], [bx, by]] = [points.at(-2) ?? points[0].with(0, points[0][0] - 1), points.at(-1)];
     const far = (STRIDE * view.width) / view.scale / (Math.hypot(bx - ax, by - ay) || 1);
@@ -620,9 +421,9 @@ export class Editor {
 
   /** Handle a tap on the picture; returns true if it drew or chose something. */
   #tap(px, py) {
-    if (!this.#isRoute) return false;
+    if (!this.isRoute) return false;
     if (!this.active) {
-      const item = thingUnder(this.#drawing.things, this.dance.view, [px, py], THINGS_INSIDE);
+      const item = thingUnder(this.drawing.things, this.dance.view, [px, py], THINGS_INSIDE);
       if (item === null) return false;
       this.choose(item);
       return true;
@@ -632,11 +433,11 @@ export class Editor {
       this.chosen();
       return true;
     }
-    const drawing = this.#drawing;
+    const drawing = this.drawing;
     const point = decimetres(this.dance.view.toWorld(px, py));
     this.#last = null;
     this.dance.view.fitted = false;
-    const onPath = drawing.points.length > 1 && this.tool !== "gate" && !(this.#isDrawing && this.item !== null) ? this.#onPath(px, py) : null;
+    const onPath = drawing.points.length > 1 && this.tool !== "gate" && !(this.isDrawing && this.item !== null) ? this.#onPath(px, py) : null;
     if (onPath && this.tool !== "path") this.take("path");
     else this.#put(point, this.tool === "path" ? onPath : this.#onEdge(px, py));
     return true;
@@ -644,18 +445,18 @@ export class Editor {
 
   /** Add a point to what is drawn. spot: where it divides the path or an edge; null: after the last one */
   #put(point, spot = null) {
-    const drawing = this.#drawing;
-    if (this.hasFigure) return announce(() => this.help);
+    const drawing = this.drawing;
+    if (this.hasFigure) return announce(() => helpOf(this));
     if (this.tool === "path") this.steps.take(inserted(drawing, null, spot?.k ?? drawing.points.length, spot?.point ?? point));
-    else if (this.item === null || !this.#isDrawing || this.#isPut) this.#begin(drawing, point);
+    else if (this.item === null || !this.isDrawing || this.#isPut) this.#begin(drawing, point);
     else this.steps.take(inserted(drawing, this.item, spot?.k ?? pointsOf(drawing, this.item).length, point));
     this.chosen();
   }
 
   /** The edge of the edited thing that a tap divides: number of the next point; null without one. */
   #onEdge(px, py) {
-    if (this.item === null || !this.#isDrawing) return null;
-    const points = pointsOf(this.#drawing, this.item).map((point) => this.dance.view.toScreen(...point));
+    if (this.item === null || !this.isDrawing) return null;
+    const points = pointsOf(this.drawing, this.item).map((point) => this.dance.view.toScreen(...point));
     const { k, far } = nearestLeg(points, [px, py], !this.#isLine);
     return far <= ON_PATH ? { k } : null;
   }
@@ -664,7 +465,7 @@ export class Editor {
   #onPath(px, py, isDivided = true) {
     const course = this.course();
     if (!isDivided) return course && this.dance.view.nearest(course, px, py, ON_PATH) !== null;
-    if (course?.knots.length !== this.#drawing.points.length) return null;
+    if (course?.knots.length !== this.drawing.points.length) return null;
     const { s, x, y, knots } = course;
     const best = this.dance.view.nearest(course, px, py, ON_PATH);
     if (best === null) return null;
@@ -689,7 +490,7 @@ export class Editor {
     const use = uses.length === 1 && { in: "out", out: "in" }[uses[0]];
     const thing = { kind, name: freeName(drawing.things, say(THINGS[kind])), points: [], ...(radius && { radius }), ...(use && { use }) };
     [this.item, this.others] = [drawing.things.length, []];
-    this.#isDrawing = true;
+    this.isDrawing = true;
     this.steps.take(withPoints({ ...drawing, things: [...drawing.things, thing] }, this.item, [point]));
   }
 

@@ -8,6 +8,7 @@ import { Corners } from "./corners.js";
 import { EMPTY, THINGS, drawingOf, freeName, ownOf, venueOf, yardOf } from "./drawing.js";
 import { $, bearer, button, hide, make, numberIn, textButton } from "./elements.js";
 import { HINTS, LABELS, strayOf } from "./fields.js";
+import { helpOf } from "./helps.js";
 import { knotsOf } from "./knots.js";
 import { clockIn, secondsBetween } from "./passages.js";
 import { pending } from "./pending.js";
@@ -412,7 +413,7 @@ export class Propose {
     hide(this.cut, this.shape.value === "rectangle");
     hide(this.wrong, !this.refusal);
     this.wrong.textContent = this.refusal?.() ?? "";
-    this.help.textContent = this.editor.active ? this.editor.help : say("What is in it? Choose, then tap the picture.");
+    this.help.textContent = this.editor.active ? helpOf(this.editor) : say("What is in it? Choose, then tap the picture.");
     // While drawing, the tools stand above the picture.
     hide(this.tools, this.editor.active);
     hide(this.done, !this.editor.active);

@@ -9,6 +9,10 @@ const KINDS = ["gate", "circle", "wall", "block", "lane", "area"];
 /** Distance at which a corner comes to rest in line with a neighbour [px]. */
 const IN_LINE = 6;
 
+/** Step of an arrow key that moves something, alone and with Shift [m]. */
+export const [STEP, FINE_STEP] = [0.1, 0.01];
+export const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
+
 /** The leg of a line of places that is nearest to a place: number of its end, and how far away it is. */
 export function nearestLeg(places, [px, py], isClosed) {
   const ends = isClosed && places.length > 2 ? [...places.slice(1), places[0]] : places.slice(1);
