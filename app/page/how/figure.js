@@ -22,7 +22,7 @@ export class Figure {
   #outputs = new Map();
 
   /**
-   * plan: {words, dials, ask(ask, values) -> data, draw(svg, {width, height}, data) -> sheet, outputs(data)}, perhaps
+   * section: with its texts; plan: {dials, ask(ask, values) -> data, draw(svg, {width, height}, data) -> sheet, outputs(data)}, perhaps
    * refine(ask), refused(error, values) -> data that shows what a refusal means or null, and, where the drawing is dragged,
    * pull(place, data) -> {name of a dial: value}; changed(): called when a number changes
    * @param {Service} service
@@ -36,32 +36,26 @@ export class Figure {
       this.change();
     })];
     this.dials = Object.fromEntries(Object.entries(plan.dials).map(dial));
-    this.svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-    this.svg.setAttribute("role", "img");
-    this.note = make("p", { className: "note", role: "status" });
-    this.figure = make("figure", { "aria-busy": "true" }, this.svg, this.note);
-    const text = (part) => this.#text(part);
+    const part = (selector) => section.querySelector(selector);
+    this.figure = part("figure");
+    this.svg = part("svg");
+    this.note = part(".note");
+    this.#texts = [...section.querySelectorAll(".lead, .verdict, .more")];
     this.code = make("code");
     const copy = textButton("Copy", () => navigator.clipboard?.writeText(this.code.textContent));
     const python = make("details", { className: "python" }, make("summary", { "data-text": "The same in Python" }), make("pre", { tabIndex: 0 }, this.code), copy);
-    section.append(this.#text("title", "h2"), text("lead"), this.figure, text("verdict"), text("more"), python);
-    section.querySelector("h2").id = `${section.id}-title`;
-    section.setAttribute("aria-labelledby", `${section.id}-title`);
+    section.append(python);
     this.#pulled();
     new ResizeObserver(() => this.draw()).observe(this.svg);
   }
 
-  #text(part, tag = "p") {
-    const element = make(tag, { className: part, ...(part === "verdict" && { "aria-live": "polite" }) });
-    this.#texts.push([element, part]);
-    return element;
-  }
-
   /** Write all sentences in the language of the page. */
   translate() {
-    for (const [element, part] of this.#texts) element.replaceChildren(...this.#sentence(say(this.plan.words[part] ?? "{verdict}")));
+    for (const element of this.#texts) {
+      element.replaceChildren(...this.#sentence(say(element.dataset.text ?? "{verdict}")));
+      element.hidden = false;
+    }
     for (const dial of Object.values(this.dials)) dial.show(say(dial.plan.label));
-    this.svg.setAttribute("aria-label", say(this.plan.words.alt));
     this.draw();
     this.#tell();
   }

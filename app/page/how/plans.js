@@ -31,13 +31,6 @@ function drawDragon(picture, pose, dragon, pair) {
 }
 
 const chord = {
-  /** @type {Phrases} */
-  words: {
-    title: "One chord after another",
-    lead: "Every handle walks on the same spiral, and each bench keeps two handles at a fixed distance: its chord. A circle of {chord} around the first handle meets the spiral behind it; the second handle stands at that point. From the second handle the next chord leads to the third, and so on to the tail.",
-    more: "The circle meets other rings too, but only the first meeting along the spiral counts: no handle jumps to another ring. Speeds need no differences in time. A bench does not stretch, so both its handles are equally fast along it, and each one's direction is known. Now let the head stand {turns} from the centre and pull the chord longer: too far in, the circle no longer finds its first meeting. The bench folds, and the dance ends there.",
-    alt: "The head of the dragon on its spiral; a circle around the first handle meets the spiral at the second",
-  },
   dials: {
     chord: { label: phrase("Chord of the head bench"), value: 2.86, min: 0.6, max: 4, step: 0.01, decimals: 2, unit: "m" },
     turns: { label: phrase("Place of the head in turns from the centre"), value: 5, min: 1.5, max: 6, step: 0.05, decimals: 2, unit: phrase("turns") },
@@ -84,14 +77,6 @@ let scan = null;
 const SAMPLES = 200;
 
 const stairs = {
-  /** @type {Phrases} */
-  words: {
-    title: "A staircase with jumps",
-    lead: "How far in does the dragon get before two benches touch? At a pitch of {pitch} the head stops {radius} from the centre: there {a} touches {b}.",
-    verdict: "A wider spiral mostly lets the head further in, but not smoothly. Compare {pitch=0.4503} with {pitch=0.4504}: a tenth of a millimetre more, and the head gets 17 cm further. At the smaller pitch a corner just catches another bench. At the larger one it just passes, and the next contact comes much later.",
-    more: "So no pitch near here lets the head stop at 4.5 m, on the edge of the turning circle. A search that halves an interval of pitches until that radius is 4.5 m looks for something that does not exist. The service asks another question: at which pitch does the least gap on the whole way to the circle just reach zero? The answer is {least}, and every larger pitch is proven to be free as well.",
-    alt: "Where the head stops against the pitch, a staircase with jumps, and the dragon at first contact",
-  },
   dials: { pitch: { label: phrase("Pitch of the spiral"), value: 0.4503, min: 0.37, max: 0.6, step: 0.0001, decimals: 4, unit: "m" } },
   async ask(ask, { pitch }) {
     scan ??= await ask("pitch-scan", { query: { samples: SAMPLES, locate: false } });
@@ -139,13 +124,6 @@ function drawStairs(chart) {
 const [BEFORE, AFTER, POINTS] = [0.1, 0.55, 53];
 
 const step = {
-  /** @type {Phrases} */
-  words: {
-    title: "Steps that are proofs",
-    lead: "Suppose that we know how far the nearest benches are apart at {time}, and again {length} later. May they have touched in between? A gap cannot change its direction at will: its second derivative is bounded, here by {bound}. So between the two instants it stays above the sagging curve.",
-    more: "In this way the service walks through the dance: in long steps where benches are far apart, in short ones where they are near. First contact of the contest's dance, at {contact}, takes {all} steps. No contact is missed, not even a very short one.",
-    alt: "The least gap over time, and under it the lowest curve that the bound allows",
-  },
   dials: {
     time: { label: phrase("Start of the interval"), value: 409.7, min: 398, max: 412.4, step: 0.01, decimals: 2, unit: "s" },
     length: { label: phrase("Length of the interval"), value: 0.06, min: 0.01, max: 0.5, step: 0.01, decimals: 2, unit: "s" },
@@ -194,14 +172,6 @@ const step = {
 const WINDOW = [211, 221];
 
 const graze = {
-  /** @type {Phrases} */
-  words: {
-    title: "Why sampling misses a graze",
-    lead: "It seems easier to look every {step} whether benches overlap. At a pitch of {pitch} that makes {count} looks in this figure. {looked}",
-    verdict: "What really happens is the curve: {truth}",
-    more: "Look every {step=0.4}, and this graze is found; but a pitch of {pitch=0.45033} hides it again, and so on for any interval. Nor does it help to halve an interval between “apart” and “overlapping”: benches that overlap may come apart and overlap again. A step that is a proof leaves no time between two looks.",
-    alt: "The least gap over time near a graze, with the instants at which somebody looks",
-  },
   dials: {
     step: { label: phrase("Time between two looks"), value: 1, min: 0.1, max: 2, step: 0.1, decimals: 1, unit: "s" },
     pitch: { label: phrase("Pitch of the spiral"), value: 0.4503, min: 0.4496, max: 0.4506, step: 0.00001, decimals: 5, unit: "m" },
@@ -244,13 +214,6 @@ const graze = {
 };
 
 const stray = {
-  /** @type {Phrases} */
-  words: {
-    title: "How far people may stray",
-    lead: "Nobody dances to the millimetre. Let every handle be up to {stray} away from its place, in any direction, at any time. Then each bench stays inside the pale band around it; as long as the bands are apart, nothing can touch.",
-    more: "At a pitch of {pitch} people may stray by {low}, but not by {high}. The first number is proven by the same steps, taken for bands instead of benches. The second is not an estimate but an example: a place for every handle, with every chord kept, in which two benches overlap. A wider spiral buys room: at {pitch=0.70} people may stray more than twice as far as at {pitch=0.55}.",
-    alt: "The two benches that come nearest, with the bands that they may cover",
-  },
   dials: {
     stray: { label: phrase("How far every handle may stray"), value: 3, min: 0, max: 30, step: 0.1, decimals: 1, unit: "cm" },
     pitch: { label: phrase("Pitch of the spiral"), value: 0.55, min: 0.46, max: 1, step: 0.01, decimals: 2, unit: "m" },

@@ -20,13 +20,6 @@ const [FROM, TO, POINTS] = [405.5, 411.5, 181];
 const GAPS = [-4, 24];
 
 export const proof = {
-  /** @type {Phrases} */
-  words: {
-    title: "What looks prove, and what they do not",
-    lead: "Two benches of the contest's dance pass very near. Look every {step}: the points are what you see. What may happen in between? Without knowing more, anything. With the bound on the second derivative, {bound}, the gap cannot sag below the arcs.",
-    more: "The nearest pass leaves {near} at {time}. Look every {step=1.00}, and you see nothing of it; nor do you for benches that are {width=30.10} wide, which do touch there. Look every {step=0.05}, and each arc is a proof. The service takes long steps where there is room, and so needs only {steps} for this stretch.",
-    alt: "The least gap over time with the instants of looks, and between them the lowest curves that the bound allows",
-  },
   dials: {
     step: { label: phrase("Time between two looks"), value: 0.25, min: 0.05, max: 1.5, step: 0.05, decimals: 2, unit: "s" },
     width: { label: phrase("Width of every bench"), value: 30, min: 29.9, max: 30.2, step: 0.01, decimals: 2, unit: "cm" },
@@ -103,13 +96,6 @@ function drawTurn(picture, { centres, radii, angles, entry, tangent_point: joint
 }
 
 export const turn = {
-  /** @type {Phrases} */
-  words: {
-    title: "A turn whose length does not know its ratio",
-    lead: "To dance out again, the dragon turns on two tangent arcs, the first {ratio} times as wide as the second. It enters at the knob, {entry} from the centre, and leaves opposite. The turn is {length} long.",
-    more: "Drag the ratio: the length stays. The coil outwards is the coil inwards, rotated by half a turn, so that both arcs turn by the same angle, {angle}. Their radii add up to {sum} at every ratio, and the length is angle times sum. Drag the entry inwards, and the turn gets shorter, until a bend is too tight: a bench surely follows where its radius is at least {least}, half the distance of the head's two handles. With equal arcs, {ratio=1.00}, neither bend is tighter than the other, so the entry may go in furthest.",
-    alt: "Two tangent arcs between two coils inside the turning circle, with the benches on them",
-  },
   dials: {
     ratio: { label: phrase("Radius of the first arc over that of the second"), value: 2, min: 0.5, max: 3, step: 0.01, decimals: 2, unit: "" },
     entry: { label: phrase("Distance of the entry from the centre"), value: 4.5, min: 2.8, max: 4.5, step: 0.01, decimals: 2, unit: "m" },
@@ -157,13 +143,6 @@ const LIMIT = 2;
 const PLAIN = { ratio: 2, entry: CIRCLE };
 
 export const speed = {
-  /** @type {Phrases} */
-  words: {
-    title: "A rigid bench passes the speed on",
-    lead: "A bench does not stretch, so its two handles are equally fast along it, although each one moves along its own piece of the path. Let the head be {way} past the beginning of the turn, at 1 m/s: then handle {handle} moves at {speed}, and the handle before it at {ahead}.",
-    more: "While both handles are on one arc, the bench makes the same angle with both their ways, and they are equally fast. Now drag the red line: the head leaves the narrow second arc for the wide coil. Its bench, 2.86 m from hole to hole, stands almost across that arc, where handle 1 still is: little of a speed there points along the bench, so handle 1 must be much faster. The speed does not jump, but within less than a metre it climbs by half, and every handle on the arc behind gets it too. Choose handle {handle=3}: the joint of the two arcs lies between it and the one before it, and adds a little more, up to {peak}. So nobody exceeds 2 m/s as long as the head does at most {limit}.",
-    alt: "Speed of the chosen handle over the way of the head through the turn, and the benches in the turn",
-  },
   dials: {
     way: { label: phrase("Way of the head past the beginning of the turn"), value: 14.48, min: 0, max: 30, step: 0.02, decimals: 2, unit: "m" },
     handle: { label: phrase("Number of the handle"), value: 1, min: 1, max: 12, step: 1, decimals: 0, unit: "" },
