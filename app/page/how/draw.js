@@ -66,6 +66,20 @@ class Sheet {
   }
 }
 
+/** Least width of a drawing with two parts side by side [px]; in a narrower one the second part is below. */
+const WIDE = 600;
+
+/** The boxes of the two parts of a drawing. share: of the width, for the first one where they are side by side */
+export function halves(svg, { width, height }, share) {
+  if (width > WIDE) {
+    const left = Math.round(share * width);
+    return [{ width: left, height }, { left, width: width - left, height }];
+  }
+  const below = Math.round(0.8 * width);
+  svg.setAttribute("height", height + below);
+  return [{ width, height }, { top: height, width, height: below }];
+}
+
 /** The place on a spiral about (0, 0) after a number of turns from the centre [m]. */
 export const onSpiral = (pitch, turn) => [pitch * turn * Math.cos(2 * Math.PI * turn), pitch * turn * Math.sin(2 * Math.PI * turn)];
 
@@ -107,6 +121,11 @@ export class Picture extends Sheet {
     const place = `translate(${ax} ${ay}) rotate(${turn})`;
     const length = Math.hypot(bx - ax, by - ay) + 2 * over;
     this.add("rect", { class: className, x: -over, y: -wide / 2, width: length, height: wide, transform: place });
+  }
+
+  /** All benches of a pose, the last one first; one of them may stand out. */
+  dragon(pose, dragon, first = null) {
+    for (let k = pose.x.length - 2; k >= 0; k--) this.bench(pose, k, dragon, k === first ? "bench first" : k ? "bench" : "bench head");
   }
 
   /** The ground that bench k may cover while every hole is within the stray of its place. */

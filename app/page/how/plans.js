@@ -2,7 +2,7 @@
 
 import { staircase } from "../charts.js";
 import { benchName, phrase, say } from "../text.js";
-import { Chart, Picture, onSpiral } from "./draw.js";
+import { Chart, Picture, halves, onSpiral } from "./draw.js";
 import { proof, speed, turn } from "./turns.js";
 
 /** Number of the contest's benches, of drawn ones, and of judged ones if only the first ones meet [1]. */
@@ -11,8 +11,6 @@ const [DRAWN, JUDGED] = [60, 40];
 const START_TURNS = 16;
 /** Pitch of the contest's spiral [m]. */
 const PITCH = 0.55;
-/** Least width of a drawing with two parts side by side [px]; in a narrower one the second part is below. */
-const WIDE = 600;
 const MM = 1000;
 const CM = 100;
 
@@ -26,7 +24,7 @@ async function poseAt(ask, path, time, dragon) {
 
 /** All benches of a pose, the last one first, and then the important ones in their colours. */
 function drawDragon(picture, pose, dragon, pair) {
-  for (let k = pose.x.length - 2; k >= 0; k--) picture.bench(pose, k, dragon, k ? "bench" : "bench head");
+  picture.dragon(pose, dragon);
   pair.forEach((bench, k) => picture.bench(pose, bench, dragon, `bench ${["first", "second"][k]}`));
 }
 
@@ -86,20 +84,16 @@ const stairs = {
   async refine(ask) {
     scan = { ...(await ask("pitch-scan", { query: { samples: SAMPLES } })), whole: true };
   },
-  draw(svg, { width, height }, { contact, pose, values }) {
-    const isWide = width > WIDE;
-    const wide = isWide ? Math.round(0.56 * width) : width;
-    const tall = isWide ? height : Math.round(0.8 * width);
-    if (!isWide) svg.setAttribute("height", height + tall);
+  draw(svg, box, { contact, pose, values }) {
+    const [left, right] = halves(svg, box, 0.56);
     const labels = [say("pitch [m]"), say("head stops at [m]")];
-    const chart = new Chart(svg, { width: wide, height }, { x: [0.365, 0.605], y: [1.5, 7], labels });
+    const chart = new Chart(svg, left, { x: [0.365, 0.605], y: [1.5, 7], labels });
     chart.across(4.5, "turning");
     chart.text(say("turning circle"), 0.605, 4.5, "tick right", [-4, -6]);
     drawStairs(chart);
     chart.up(values.pitch, "here");
     chart.dot(values.pitch, contact.head.radius, "now", 6);
-    const place = isWide ? { left: wide, width: width - wide } : { top: height, width };
-    const picture = new Picture(svg, { ...place, height: tall }, { x: 0, y: 0, span: 12.6 });
+    const picture = new Picture(svg, right, { x: 0, y: 0, span: 12.6 });
     picture.circle(0, 0, 4.5, "turning");
     drawDragon(picture, pose, DRAGON, contact.benches);
     picture.circle(...contact.point, 0.45, "ring");

@@ -2,7 +2,7 @@
 
 import { Problem } from "../api.js";
 import { phrase, say } from "../text.js";
-import { Chart, Picture, onSpiral } from "./draw.js";
+import { Chart, Picture, halves, onSpiral } from "./draw.js";
 
 /** The contest's benches: overhang, width and the chord of the head [m]; its turn: pitch and radius of the circle [m]. */
 const DRAGON = { overhang: 0.275, width: 0.3 };
@@ -10,8 +10,6 @@ const [CHORD, PITCH, CIRCLE] = [2.86, 1.7, 4.5];
 /** Benches that are judged or drawn: those behind repeat what these do. */
 const BENCHES = 40;
 const [MM, CM] = [1000, 100];
-/** Least width of a drawing with two parts side by side [px]; in a narrower one the second part is below. */
-const WIDE = 600;
 /** Points of an arc, and turns of the coils that are drawn. */
 const [ARC_POINTS, COIL_TURNS] = [60, 2];
 
@@ -115,7 +113,7 @@ export const turn = {
   },
   draw(svg, box, { shape, pose }) {
     const picture = new Picture(svg, box, { x: 0, y: 0, span: 11 });
-    if (pose) for (let k = pose.x.length - 2; k >= 0; k--) picture.bench(pose, k, DRAGON, k ? "bench" : "bench head");
+    if (pose) picture.dragon(pose, DRAGON);
     drawTurn(picture, shape);
     for (const centre of shape.centres) picture.dot(...centre, "hole", 3);
     picture.dot(...shape.tangent_point, "hole", 4);
@@ -158,20 +156,16 @@ export const speed = {
     const { x, y, speed: rates } = await ask("trajectory", { body: { ...dance, times: [way] } });
     return { ...this.known, pose: { x: x[0], y: y[0], speed: rates[0] } };
   },
-  draw(svg, { width, height }, { shape, curve, pose, values: { way, handle } }) {
-    const isWide = width > WIDE;
-    const wide = isWide ? Math.round(0.5 * width) : width;
-    const tall = isWide ? height : Math.round(0.8 * width);
-    if (!isWide) svg.setAttribute("height", height + tall);
+  draw(svg, box, { shape, curve, pose, values: { way, handle } }) {
+    const [left, right] = halves(svg, box, 0.5);
     const labels = [say("way of the head [m]"), say("speed of the handle over that of the head")];
-    const chart = new Chart(svg, { width: wide, height }, { x: WAY, y: [0.4, 1.7], labels });
+    const chart = new Chart(svg, left, { x: WAY, y: [0.4, 1.7], labels });
     chart.across(1, "zero");
     chart.line(curve.time.map((time, k) => [time, curve.speed[k][handle]]), "curve");
     chart.up(way, "here");
     chart.dot(way, pose.speed[handle], "now", 6);
-    const place = isWide ? { left: wide, width: width - wide } : { top: height, width };
-    const picture = new Picture(svg, { ...place, height: tall }, { x: 0, y: 0, span: 10.5 });
-    for (let k = pose.x.length - 2; k >= 0; k--) picture.bench(pose, k, DRAGON, k === handle - 1 ? "bench first" : k ? "bench" : "bench head");
+    const picture = new Picture(svg, right, { x: 0, y: 0, span: 10.5 });
+    picture.dragon(pose, DRAGON, handle - 1);
     drawTurn(picture, shape);
     picture.dot(...shape.tangent_point, "center", 4);
     picture.dot(pose.x[handle], pose.y[handle], "now", 6);
