@@ -60,13 +60,13 @@ def _hosts(names: str) -> str:
     return ",".join(known)
 
 
-def part(places: int, most: int | None) -> int:
-    """Number of places that one client may take: `most`, or without it all but one; of one place that one.
+def part(slots: int, most: int | None) -> int:
+    """Number of slots that one client may take: `most`, or without it all but one; of one slot that one.
 
     >>> part(4, None), part(2, None), part(1, None), part(4, 2), part(2, 8)
     (3, 1, 1, 2, 2)
     """
-    return max(places - 1, 1) if most is None else min(most, places)
+    return max(slots - 1, 1) if most is None else min(most, slots)
 
 
 def refuse_open_port(settings: Settings) -> None:
@@ -145,8 +145,7 @@ class Settings(BaseModel):
     readers_client_max: int | None = Field(
         None,
         ge=1,
-        description="Files of one client read at once by one process; further ones get 429; default: all places but "
-        "one",
+        description="Files of one client read at once by one process; further ones get 429; default: all slots but one",
     )
     reader_memory_max: int = Field(
         1_000_000_000, ge=2**29, description="Address space of a process that reads a file [bytes]"
@@ -182,7 +181,7 @@ class Settings(BaseModel):
         None,
         ge=1,
         description="Longer computations at once of one client in one process; further ones get 429; default: all "
-        "places but one",
+        "slots but one",
     )
     workbooks_max: int = Field(1, ge=1, description="Workbooks written at once in one process; further ones get 503")
     bodies_bytes_max: int = Field(
@@ -234,7 +233,7 @@ class Settings(BaseModel):
     )
     jobs_running_max: int = Field(3, ge=1, description="Jobs that run at once; the others wait")
     jobs_running_client_max: int | None = Field(
-        None, ge=1, description="Jobs of one client that run at once; default: all places but one"
+        None, ge=1, description="Jobs of one client that run at once; default: all slots but one"
     )
     jobs_bytes_max: int = Field(
         10**10, ge=1, description="Size of the requests and results of all jobs; the oldest give way [bytes]"

@@ -45,10 +45,10 @@ async def mcp(request: Request) -> Response:
     refuse_parts(request, body, values=True)
     lanes: Lanes = request.app.state.lanes
     client = client_of(request)
-    with ExitStack() as places:
-        places.enter_context(lanes.assistants.place(LARGE_COST, client))
+    with ExitStack() as slots:
+        slots.enter_context(lanes.assistants.slot(LARGE_COST, client))
         if len(body) > LARGE:
-            places.enter_context(lanes.large_bodies.place(LARGE_COST, client))
+            slots.enter_context(lanes.large_bodies.slot(LARGE_COST, client))
         loop = asyncio.get_running_loop()
         return await to_thread.run_sync(_response, request, body, loop, limiter=CapacityLimiter(1))
 

@@ -76,7 +76,7 @@ class BodyRoute(WatchedRoute):
                 return await small(request)
             refuse_parts(request, body)
             lanes: Lanes = request.app.state.lanes
-            with lanes.large_bodies.place(LARGE_COST, client_of(request)):
+            with lanes.large_bodies.slot(LARGE_COST, client_of(request)):
                 # Threads separate from those that answer small requests.
                 return await to_thread.run_sync(asyncio.run, in_thread(request), limiter=CapacityLimiter(1))
 

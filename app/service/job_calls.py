@@ -22,12 +22,12 @@ class JobCalls(Layer):
     """Lets few calls about jobs at a time into the threads that all calls share, because each waits for the disk.
 
     The others wait for their turn outside, so that a thousand jobs or removals at once delay no page. A call has its
-    place from the end of its body, which may come slowly, until its answer begins.
+    slot from the end of its body, which may come slowly, until its answer begins.
     """
 
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
         super().__init__(app)
-        self._places, self._waiting, self._retry_after = asyncio.Semaphore(JOB_CALLS), 0, settings.retry_after
+        self._slots, self._waiting, self._retry_after = asyncio.Semaphore(JOB_CALLS), 0, settings.retry_after
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         scope[AS_JOB] = prefers_job(Headers(scope=scope))
@@ -40,22 +40,22 @@ class JobCalls(Layer):
             words, after = "The limit of {most} about jobs is reached", {"Retry-After": str(self._retry_after)}
             refused = Refused(503, words, None, after, reason="try again in {seconds}.", **values)
             return await self.refuse(refused, scope, receive, send)
-        has_place = False
+        has_slot = False
 
         async def enter() -> None:
-            nonlocal has_place
+            nonlocal has_slot
             self._waiting += 1
             try:
-                await self._places.acquire()
+                await self._slots.acquire()
             finally:
                 self._waiting -= 1
-            has_place = True
+            has_slot = True
 
         def leave() -> None:
-            nonlocal has_place
-            if has_place:
-                self._places.release()
-            has_place = False
+            nonlocal has_slot
+            if has_slot:
+                self._slots.release()
+            has_slot = False
 
         is_read = scope["method"] in ("GET", "HEAD", "DELETE")
 

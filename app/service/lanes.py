@@ -2,7 +2,7 @@
 
 There are lanes for cheap calls, heavy calls, workbooks, files and large bodies. No call waits in a lane: a full lane
 answers 503 with the time at which the first of its computations should be done, so that a heavy call never delays a
-cheap one. A client that has its part of the places gets 429.
+cheap one. A client that has its part of the slots gets 429.
 """
 
 from __future__ import annotations
@@ -47,8 +47,8 @@ class Lane:
         self._begun: dict[object, tuple[float, float, str]] = {}
 
     @contextmanager
-    def place(self, cost: float, client: str = "") -> Iterator[None]:
-        """A place in the lane. cost: estimated time for which it is needed [s]. raises: Refused (429, 503)"""
+    def slot(self, cost: float, client: str = "") -> Iterator[None]:
+        """A slot in the lane. cost: estimated time for which it is needed [s]. raises: Refused (429, 503)"""
         key = object()
         with self._lock:
             own = [one for one in self._begun.values() if one[2] == client]
@@ -101,33 +101,33 @@ class Lanes:
         self.files = lane("file", settings.readers_max, part(settings.readers_max, settings.readers_client_max))
         self.large_bodies = lane("large body", settings.large_bodies_max, part(settings.large_bodies_max, None))
 
-    def place(self, cost: float, media_type: str, client: str) -> AbstractContextManager[None]:
-        """A place in the lane of a computation. cost: its estimated time [s]"""
+    def slot(self, cost: float, media_type: str, client: str) -> AbstractContextManager[None]:
+        """A slot in the lane of a computation. cost: its estimated time [s]"""
         if media_type == XLSX_TYPE:
-            return self._workbook.place(cost, client)
+            return self._workbook.slot(cost, client)
         if cost <= CHEAP:
-            return self._cheap.place(cost, client)
+            return self._cheap.slot(cost, client)
         lower_thread_priority(get_native_id())
-        return self._heavy.place(cost, client)
+        return self._heavy.slot(cost, client)
 
     @contextmanager
-    def movable_place(self, cost: float, client: str, budget: Budget) -> Iterator[None]:
-        """A place among the cheap computations, and after CHEAP seconds one among the heavy ones instead.
+    def movable_slot(self, cost: float, client: str, budget: Budget) -> Iterator[None]:
+        """A slot among the cheap computations, and after CHEAP seconds one among the heavy ones instead.
 
-        The computation goes on in its new place; without a free one its budget is stopped.
+        The computation goes on in its new slot; without a free one its budget is stopped.
         cost: its estimated time [s]
         raises: Refused (429, 503)
         """
         refusals, thread = list[Refused](), get_native_id()
         with ExitStack() as heavy, ExitStack() as cheap:
-            cheap.enter_context(self._cheap.place(cost, client))
+            cheap.enter_context(self._cheap.slot(cost, client))
 
             def move() -> None:
                 try:
-                    heavy.enter_context(self._heavy.place(UNKNOWN_COST, client))
+                    heavy.enter_context(self._heavy.slot(UNKNOWN_COST, client))
                 except Refused as refusal:
                     refusals.append(refusal)
-                    budget.stop(phrase("before a place among the heavy computations was free"))
+                    budget.stop(phrase("before a slot among the heavy computations was free"))
                 else:
                     lower_thread_priority(thread)
                     cheap.close()

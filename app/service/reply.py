@@ -121,10 +121,10 @@ class Reply:
         words = "accept-language" in self.request.headers
         return Computation(call, inputs, form_chosen, self.request.scope["path"], words=words)
 
-    def _place(self, computation: Computation, budget: Budget, *, is_movable: bool) -> AbstractContextManager[None]:
+    def _slot(self, computation: Computation, budget: Budget, *, is_movable: bool) -> AbstractContextManager[None]:
         if is_movable:
-            return self._lanes.movable_place(computation.cost, self.client, budget)
-        return self._lanes.place(computation.cost, computation.media_type, self.client)
+            return self._lanes.movable_slot(computation.cost, self.client, budget)
+        return self._lanes.slot(computation.cost, computation.media_type, self.client)
 
     def _response(self, computation: Computation, budget: Budget, *, is_movable: bool = False) -> Response:
         """The answer with its headers. is_movable: whether its computation may move to another lane"""
@@ -144,7 +144,7 @@ class Reply:
             return self._later(self.request, computation.task, cost)
         data: bytes | Iterator[bytes] | None = self._answers.get(tag)
         if data is None:
-            with self._place(computation, budget, is_movable=is_movable):
+            with self._slot(computation, budget, is_movable=is_movable):
                 data = computation.answer(Terms(self.settings, budget, words=computation.words))
             if isinstance(data, bytes):
                 self._answers.keep(tag, data)

@@ -155,9 +155,9 @@ def description_of(name: str, model: type[BaseModel], *, required: bool) -> dict
 
 
 def in_lane(request: Request) -> AbstractContextManager[None]:
-    """A place among the computations for one file. raises: Refused (429, 503)"""
+    """A slot among the computations for one file. raises: Refused (429, 503)"""
     lanes: Lanes = request.app.state.lanes
-    return lanes.files.place(COST, client_of(request))
+    return lanes.files.slot(COST, client_of(request))
 
 
 def reply_of(answer: Answer) -> Response:

@@ -95,7 +95,7 @@ def answer_of(app, counting, method="GET"):
 
 
 def heavy_lane_full(app):
-    return app.state.lanes.place(UNKNOWN_COST, JSON, "another client")
+    return app.state.lanes.slot(UNKNOWN_COST, JSON, "another client")
 
 
 @pytest.mark.parametrize(
@@ -116,13 +116,13 @@ def test_an_answer_is_estimated_once_and_computed_once_more_at_most(app, method,
     assert counting.computed == computed
 
 
-def test_what_the_loop_gives_up_needs_no_place_among_long_computations(app):
+def test_what_the_loop_gives_up_needs_no_slot_among_long_computations(app):
     counting = Counting(SHORT, slow_at_first)
     with heavy_lane_full(app):
         assert answer_of(app, counting).json() == {"computed": 2}
 
 
-def test_what_goes_on_for_longer_moves_to_a_place_among_long_computations(app):
+def test_what_goes_on_for_longer_moves_to_a_slot_among_long_computations(app):
     def slow(terms, number):
         if number == 1:
             until_stopped(terms, number)
@@ -134,7 +134,7 @@ def test_what_goes_on_for_longer_moves_to_a_place_among_long_computations(app):
     assert running(app, "cheap") == running(app, "heavy") == 0.0
 
 
-def test_what_goes_on_for_longer_ends_where_no_place_is_free(app):
+def test_what_goes_on_for_longer_ends_where_no_slot_is_free(app):
     counting = Counting(SHORT, until_stopped)
     with heavy_lane_full(app):
         answer = answer_of(app, counting)
@@ -144,13 +144,13 @@ def test_what_goes_on_for_longer_ends_where_no_place_is_free(app):
     assert counting.computed == 2
 
 
-def test_workbooks_have_places_of_their_own():
+def test_workbooks_have_slots_of_their_own():
     lanes = create_app(Settings(workbooks_max=1, retry_after=7)).state.lanes
-    with ExitStack() as places:
+    with ExitStack() as slots:
         for cost, form in ((0.0, XLSX_TYPE), (0.0, JSON), (UNKNOWN_COST, JSON)):
-            places.enter_context(lanes.place(cost, form, ""))
+            slots.enter_context(lanes.slot(cost, form, ""))
         with pytest.raises(Refused) as refused:
-            places.enter_context(lanes.place(0.0, XLSX_TYPE, ""))
+            slots.enter_context(lanes.slot(0.0, XLSX_TYPE, ""))
     assert refused.value.status_code == 503
     assert int((refused.value.headers or {})["Retry-After"]) >= 7
 
