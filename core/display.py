@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from core.language import say
+from core.language import Phrases, say
 
 # Significant digits of a number in one line, and in a table, where the two ends of a bracket must differ.
 LINE_DIGITS, TABLE_DIGITS = 9, 15
@@ -23,6 +23,13 @@ ENTRIES_MOST = 6
 # Width of the picture below a table [pixels], and most benches in it.
 PICTURE_WIDTH, PICTURE_MOST = 320, 1_000
 TOUCHING = "#D55E00"  # colour of benches that touch
+# Rows of a table that are no fields, or those of a path.
+ROWS: Phrases = {
+    "after": "after", "agree": "agree", "angle sum": "angle sum", "angles": "angles", "before": "before",
+    "centre": "centre", "centres": "centres", "entry": "entry", "exit": "exit",
+    "chords": "chords", "left out": "left out", "radii": "radii", "tangent point": "tangent point",
+    "turning radius": "turning radius",
+}  # fmt: skip
 # What a line of a docstring says of a field.
 ENTRY = re.compile(r"(?P<name>\w+): (?P<words>.*?)(?: \[(?P<unit>[^\]]*)\])?")
 
@@ -41,7 +48,9 @@ class Readable:
     def _repr_html_(self) -> str:
         from html import escape
 
-        rows = (f'<tr><th scope="row">{escape(name)}</th><td>{escape(text)}</td></tr>' for name, text in self._rows())
+        rows = (
+            f'<tr><th scope="row">{escape(say(name))}</th><td>{escape(text)}</td></tr>' for name, text in self._rows()
+        )
         table = f"<table><caption>{escape(type(self).__name__)}</caption>{''.join(rows)}</table>"
         return table + _drawn(*self._benches(), escape(self._line()))
 
@@ -49,7 +58,7 @@ class Readable:
         """The short fields, each with its unit; a bracket only if its two ends differ in these digits."""
         values = [one for one in self._values() if not _alike(*one[:2])]
         texts = [(name, display(value, unit, LINE_DIGITS)) for name, value, unit in values]
-        return ", ".join(f"{name} {text}" for name, text in texts if len(text) <= TEXT_MOST)
+        return ", ".join(f"{say(name)} {text}" for name, text in texts if len(text) <= TEXT_MOST)
 
     def _rows(self) -> list[tuple[str, str]]:
         """Name and value of every row of the table."""
@@ -183,7 +192,7 @@ def _entry(value: object, digits: int) -> str:
     if isinstance(value, bool):
         return say("yes") if value else say("no")
     if isinstance(value, Enum):
-        return str(value.value)
+        return say(str(value.value))
     if isinstance(value, float):
         return f"{value + 0.0:.{digits}g}"  # no -0
     if isinstance(value, tuple):

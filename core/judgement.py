@@ -39,6 +39,7 @@ from core.language import Phrases, say
 from core.passages import TIME_MAX
 from core.performance import Performance
 from core.questions import or_about, question_about
+from core.values import Floats
 from core.venue import Venue
 
 # Length of the judged interval if benches already touch at the start [s].
@@ -107,6 +108,9 @@ class Report(Readable):
 
     def _line(self) -> str:
         return summary(self.verdict, self.start, self.stop, [failure.message for failure in self.failures])
+
+    def _benches(self) -> tuple[Floats | None, Sequence[int]]:
+        return self.first_contact._benches()
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -168,7 +168,10 @@ def draw_scan(axes: Axes, points: Floats, pieces: Sequence[tuple[int, int]], jum
     """
     from matplotlib.collections import LineCollection
 
-    stairs = [points[a:b] for a, b in pieces]
-    axes.add_collection(LineCollection(stairs, colors=BLUE, linewidths=1.8, label=label))
+    stairs = [points[a:b] for a, b in pieces if b - a > 1]
+    axes.add_collection(LineCollection(stairs, colors=BLUE, linewidths=1.8, label=label if stairs else None))
+    alone = np.array([a for a, b in pieces if b - a == 1], dtype=np.int64)
+    axes.plot(*points[alone].T, ".", color=BLUE, label=None if stairs else label)
     falls = [points[a - 1 : a + 1] for a, _ in pieces[1:] if points[a, 0] - points[a - 1, 0] <= jump]
-    axes.add_collection(LineCollection(falls, colors=GREY, linewidths=0.8, linestyles="dotted", label=say("jump")))
+    jump_label = say("jump") if falls else None
+    axes.add_collection(LineCollection(falls, colors=GREY, linewidths=0.8, linestyles="dotted", label=jump_label))

@@ -109,12 +109,12 @@ def remarks(rows: Sequence[Row]) -> list[tuple[list[Row], str]]:
         if row.digest and row.missing < row.cells and not _is_plain(row):
             same[row.digest].append(row)
     groups = [group for group in same.values() if _teams(group) > 1]
-    found = [(group, word("alike", files=_names(group))) for group in groups]
+    found = [(group, word("alike", files=names_of(group))) for group in groups]
     whole = {frozenset(map(id, group)) for group in groups}
     for group, shared in _sharing(rows):
         if frozenset(map(id, group)) not in whole:
             count, most = len(shared), min(len(row.unusual) for row in group)
-            values = {"files": _names(group), "count": count, "most": most, "number": min(shared)}
+            values = {"files": names_of(group), "count": count, "most": most, "number": min(shared)}
             found.append((group, word("same_wrong", **values)))
     return found
 
@@ -151,5 +151,6 @@ def _teams(group: Sequence[Row]) -> int:
     return len({row.team for row in group})
 
 
-def _names(group: Sequence[Row]) -> str:
-    return str(Listed(f"{row.team}/{row.file}" for row in group))
+def names_of(group: Sequence[Row]) -> str:
+    """The files, each with its team; empty for none."""
+    return str(Listed(f"{row.team}/{row.file}" for row in group)) if group else ""

@@ -161,7 +161,7 @@ WORDS: Phrases = ERRORS | PAPER | {f"name_{code}": name for code, name in NAMES.
     "class_rounded": "rounded",
     "class_missing": "missing",
     "class_team_points": "points of the team",
-    "class_remark": "remark",
+    "class_alike": "files that are alike",
     "class_sheet": "class",
     "rubric_what": "what",
     "rubric_points": "points",

@@ -10,13 +10,12 @@ from pydantic import Field
 
 from app.files.tables import CSV_TYPE, XLSX_TYPE
 from app.files.workbooks import table_workbook
-from app.grade.class_table import Row, points_of, remarks, rubric_of, rubric_text, team_points
+from app.grade.class_table import Row, names_of, points_of, remarks, rubric_of, rubric_text, team_points
 from app.grade.judged import Rating
 from app.grade.words import word
 from app.wire.fields import Answer, OneLine, Whole, Wire, measure
 from app.wire.question import JSON, Question, Terms
 from app.wire.texts import text_to_cell
-from core.language import joined
 
 # Most files of a class, cells of one, unusual numbers of one, and characters of a rubric.
 FILES_MAX, CELLS_MAX, UNUSUAL_MAX, RUBRIC_MAX = 2_000, 1_000_000, 40, 10_000
@@ -74,7 +73,7 @@ class ClassTable(Answer):
 
     heads: list[str] = Field(
         description="Heads of the columns: team, file, workbook, verdict, cells, right, points, finding, rounded, "
-        "missing, points of the team, remark"
+        "missing, points of the team, files that are alike"
     )
     rows: list[list[str | int | float]] = Field(description="A row for each file, in its order")
     teams: list[list[str | float]] = measure("points", "Each team and its points, the most first")
@@ -84,7 +83,7 @@ class ClassTable(Answer):
 
 COLUMNS = (
     *("team", "file", "workbook", "verdict", "cells", "right", "points", "finding"),
-    *("rounded", "missing", "team_points", "remark"),
+    *("rounded", "missing", "team_points", "alike"),
 )
 
 
@@ -106,7 +105,7 @@ def class_table(request: ClassTableRequest, terms: Terms, form: str) -> ClassTab
             row.rounded,
             row.missing,
             teams[row.team],
-            joined([words for group, words in notes if any(row is one for one in group)]),
+            names_of([one for group, _ in notes if row in group for one in group if one is not row]),
         ]
         for row, file in zip(rows, request.files, strict=True)
     ]

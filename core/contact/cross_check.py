@@ -78,9 +78,13 @@ class ContactCheck(Readable):
         return agreement_words(self.agree, len(self.engines), len(self.judged))
 
     def _rows(self) -> list[tuple[str, str]]:
-        verdicts = [(engine.value, repr(verdict)) for engine, verdict in self.engines.items()]
-        rest = [("together", display(self.together)), ("left out", display(self.left_out))]
-        return [("agree", display(self.agree)), ("judged", display(self.judged)), *verdicts, *rest]
+        return [("agree", display(self.agree)), ("judged", display(self.judged)), *_engine_rows(self)]
+
+
+def _engine_rows(check: ContactCheck | EncounterCheck) -> list[tuple[str, str]]:
+    """A row for the findings of each engine, and what came together or was left out."""
+    verdicts = [(engine.value.replace("_", " "), verdict._line()) for engine, verdict in check.engines.items()]
+    return [*verdicts, ("together", display(check.together)), ("left out", display(check.left_out))]
 
 
 def agreement_words(agree: bool, engines: int, benches: int) -> str:
@@ -126,9 +130,7 @@ class EncounterCheck(Readable):
         return agreement_words(self.agree, len(self.engines), count)
 
     def _rows(self) -> list[tuple[str, str]]:
-        engines = [(engine.value, repr(verdict)) for engine, verdict in self.engines.items()]
-        rest = [("together", display(self.together)), ("left out", display(self.left_out))]
-        return [("agree", display(self.agree)), *engines, *rest]
+        return [("agree", display(self.agree)), *_engine_rows(self)]
 
 
 @question_about("encounter", FirstEncounter, "the engines' verdict on the encounter was not found")

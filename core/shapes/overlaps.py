@@ -84,7 +84,10 @@ class CrossCheck(WithArrays):
 
     def _rows(self) -> list[tuple[str, str]]:
         counts = [
-            (engine.value, say("{count} pairs, {only} not found by all", count=len(pairs), only=len(self.only[engine])))
+            (
+                engine.value.replace("_", " "),
+                say("{count} pairs, {only} not found by all", count=len(pairs), only=len(self.only[engine])),
+            )
             for engine, pairs in self.pairs.items()
         ]
         return [("agree", display(self.agree)), *counts, ("left out", display(self.left_out))]

@@ -154,7 +154,9 @@ def test_a_line_and_a_table_are_in_the_language_that_is_spoken(values):
         names = re.findall("[A-Za-z]{3,}", f"{NAMES} {[dir(part) for part in parts(value)]}")
         if "message" not in names:  # It was composed before.
             with speaking("zh"):
-                texts = repr(value), *re.findall("<td>(.*?)</td>", value._repr_html_())
+                table = value._repr_html_()
+                texts = repr(value), *re.findall("<td>(.*?)</td>", table)
+            assert {*re.findall('<th scope="row">([^<]*[A-Za-z]{3,}.*?)<', table)} <= {"fcl", "shapely"}
             shown = " ".join(re.sub(r"\w+\(.*\)", "", html.unescape(text)) for text in texts)
             assert {*re.findall("[A-Za-z]{3,}", shown)} <= {*names}, shown
 

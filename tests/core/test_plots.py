@@ -75,3 +75,10 @@ def test_a_scan_is_a_staircase_with_its_jumps(axes):
     stairs, falls = (one.get_segments() for one in axes.collections if isinstance(one, LineCollection))
     assert [len(part) for part in stairs] == [end - start for start, end in result.pieces]
     assert len(falls) == len(result.pieces) - 1
+
+
+def test_samples_of_a_scan_that_stand_alone_are_dots(axes):
+    result = pitch_scan(Dragon(30), [0.4, 0.42, 0.45], start_turns=8.0, locate=False)
+    result.plot(axes)
+    assert axes.lines[0].get_xdata().tolist() == result.pitch.tolist()
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["first contact"]
