@@ -36,6 +36,11 @@ FAULTS: Phrases = {
 }
 
 
+def twice_area(ring: Sequence[Point]) -> float:
+    """Twice the area in a closed ring, above zero where it goes counter-clockwise [m^2]."""
+    return sum(a[0] * b[1] - b[0] * a[1] for a, b in pairwise(ring))
+
+
 def refuse_many_edges(rings: Iterable[Sequence[object]]) -> None:
     """Refuse more edges than EDGES_MAX, counted by the lengths of the rings alone. raises: InvalidValue"""
     edges = sum(max(len(ring) - 1, 1) for ring in rings)

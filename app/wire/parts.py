@@ -10,7 +10,7 @@ from math import dist
 import numpy as np
 
 from core.values import Floats, Point
-from core.venue import Ring
+from core.venue import Ring, twice_area
 
 # The rings of an area, the outer one first.
 Rings = tuple[Ring, ...]
@@ -85,7 +85,7 @@ def merged(areas: Sequence[Rings]) -> Rings | None:
                 return None
             following = after.pop(following)
         loops.append(tuple(places[k] for k in [*loop, first]))
-    outlines = [loop for loop in loops if _twice_area(loop) > 0.0]
+    outlines = [loop for loop in loops if twice_area(loop) > 0.0]
     if len(outlines) != 1:
         return None
     return (outlines[0], *(loop for loop in loops if loop is not outlines[0]))
@@ -100,9 +100,5 @@ def _divided(a: int, b: int, places: Floats) -> list[int]:
     return [a, *on[np.argsort(along[on])].tolist(), b]
 
 
-def _twice_area(ring: Sequence[Point]) -> float:
-    return sum(a[0] * b[1] - b[0] * a[1] for a, b in pairwise(ring))
-
-
 def _counter_clockwise(ring: Sequence[Point], is_hole: bool) -> Sequence[Point]:
-    return ring if (_twice_area(ring) > 0.0) != is_hole else ring[::-1]
+    return ring if (twice_area(ring) > 0.0) != is_hole else ring[::-1]

@@ -65,11 +65,9 @@ class Turns:
 
 def sizes_of(growth: float, entry: Floats, turned: Floats, log_ratio: Floats) -> Floats:
     """r1, r2 [m], alpha1, alpha2 [rad], length, exit radius [m] of turns, (6, N)."""
-    ratio = np.exp(log_ratio)
-    leaving = entry + growth * turned
-    t, u, around = entry / growth, leaving / growth, np.exp(1j * turned)
-    n, m = (1j - t) / np.hypot(1.0, t), around * (1j - u) / np.hypot(1.0, u)
-    apart, both = entry + leaving * around, ratio * n + m
+    ratio, leaving = np.exp(log_ratio), entry + growth * turned
+    n, m, apart = _normals(growth, entry, leaving, turned)
+    both = ratio * n + m
     level, squared = (apart * both.conj()).real, np.abs(apart) ** 2
     curved = 2.0 * ratio * (1.0 - (n * m.conj()).real)
     root = np.sqrt(level**2 + curved * squared)
@@ -78,6 +76,12 @@ def sizes_of(growth: float, entry: Floats, turned: Floats, log_ratio: Floats) ->
         towards = -(apart + least * both)
         angles = [np.angle(-normal * towards.conj()) % (2.0 * math.pi) for normal in (n, m)]
     return np.array([ratio * least, least, *angles, ratio * least * angles[0] + least * angles[1], leaving])
+
+
+def _normals(growth: float, entry: Floats, leaving: Floats, turned: Floats) -> tuple[NDArray[np.complex128], ...]:
+    """n and m at both ends of turns, and the way between these [m], (N,) each."""
+    t, u, around = entry / growth, leaving / growth, np.exp(1j * turned)
+    return (1j - t) / np.hypot(1.0, t), around * (1j - u) / np.hypot(1.0, u), entry + leaving * around
 
 
 def can_be_drawn(sizes: Floats) -> NDArray[np.bool_]:
@@ -165,9 +169,7 @@ def _excesses(growth: float, points: Floats, least: float) -> tuple[Floats, Floa
     """Left sides less right sides of the conditions for r2 and r1 at points (3, N), positive where too tight [m^2]."""
     entry, turned, log_ratio = points
     ratio, leaving = np.exp(log_ratio), entry + growth * turned
-    t, u, around = entry / growth, leaving / growth, np.exp(1j * turned)
-    n, m = (1j - t) / np.hypot(1.0, t), around * (1j - u) / np.hypot(1.0, u)
-    apart = entry + leaving * around
+    n, m, apart = _normals(growth, entry, leaving, turned)
     first, second = (2.0 * least * (apart * one.conj()).real for one in (n, m))
     curved, squared = 2.0 * least**2 * (1.0 - (n * m.conj()).real), np.abs(apart) ** 2
     return ratio * (curved - first) - second - squared, curved - second - ratio * (first + squared)

@@ -138,13 +138,7 @@ def clearance_between(scene, active, handles, best, chain):
             break
         for row in range(scene.stride, scene.copies * scene.stride):
             if i <= row % scene.stride < handles:
-                dx = chain[row, MX] - chain[i, MX]
-                dy = chain[row, MY] - chain[i, MY]
-                far = scene.sizes[i, RADIUS] + scene.sizes[row, RADIUS] + max(best.gap, 0.0)
-                if dx * dx + dy * dy <= far * far:
-                    gap = row_gap_within(scene, i, row, best.gap, chain)
-                    if gap < best.gap:
-                        best = Closest(gap, i, row)
+                best = least_with(scene, i, row, row + 1, best, chain)
     return best
 
 

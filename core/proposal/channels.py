@@ -11,14 +11,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from heapq import heappop, heappush
 
 import numpy as np
 
 from core.proposal.footprint import DENSE, SPAN, room_beside, standing
 from core.proposal.legs import DETOUR, LEG_WORK, STEP, LegFinder, points_along
-from core.proposal.walks import Pose, Step, dubins, length_of, long_enough, moved
+from core.proposal.walks import Pose, Step, dubins, length_of, long_enough, moved, way_through
 from core.values import Floats
 
 # Distance of benches that are measured [m].
@@ -148,12 +148,8 @@ class ChannelLegFinder(LegFinder):
     def _between(self, begin: Pose, end: Pose) -> list[Stretch]:
         """The channels that are nearest to the way between two poses."""
 
-        def way(channel: tuple[Pose, float]) -> float:
-            entry, length = channel
-            return math.dist(begin[:2], entry[:2]) + math.dist(moved(entry, (length, 0.0))[:2], end[:2])
-
         stretches = []
-        for entry, length in sorted(self.channels, key=way)[:CHANNELS_NEAR]:
+        for entry, length in sorted(self.channels, key=partial(way_through, begin, end))[:CHANNELS_NEAR]:
             last = moved(entry, (length, 0.0))
             stretches.append(Stretch(entry, last, self._left(_back(entry)), self._left(last)))
         return stretches

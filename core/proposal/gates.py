@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from itertools import pairwise, permutations
+from itertools import permutations
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from core.display import Readable
 from core.errors import InvalidValue
 from core.quantities import Quantity, quantities
 from core.values import Floats, Point
-from core.venue import Area, Venue
+from core.venue import Area, Venue, twice_area
 
 # Largest distance of a gate from the border [m]: coordinates that were measured with a tape or read from a map.
 ON_BORDER = 0.25
@@ -122,7 +122,7 @@ def _on_border(name: str, gate: Gate, square: Area) -> Gate:
 
 def _counter_clockwise(ring: tuple[Point, ...]) -> Floats:
     """The corners of a ring, each once, counter-clockwise [m]. Shape (corners, 2)."""
-    return np.array(ring[:-1] if _signed_area(ring) > 0.0 else ring[:0:-1])
+    return np.array(ring[:-1] if twice_area(ring) > 0.0 else ring[:0:-1])
 
 
 def _crossed(points: Floats, gate: Gate) -> tuple[int, Point, Floats]:
@@ -140,10 +140,6 @@ def _crossed(points: Floats, gate: Gate) -> tuple[int, Point, Floats]:
     k = int(np.where(there, into @ gate.ahead, -math.inf).argmax())
     x, y = nearest[k].tolist()
     return k, (x, y), into[there]
-
-
-def _signed_area(ring: tuple[Point, ...]) -> float:
-    return sum(a[0] * b[1] - b[0] * a[1] for a, b in pairwise(ring))
 
 
 def with_streets(venue: Venue, gates: Sequence[Gate], widths: tuple[float, float], length: float) -> Venue:

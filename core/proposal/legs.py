@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import product
 
 import numpy as np
@@ -22,7 +22,7 @@ from core.kernels import Budget
 from core.paths.pieces import LENGTH_MIN
 from core.proposal.free_ground import FreeGround
 from core.proposal.needs import Needs
-from core.proposal.walks import Pose, Step, dubins, length_of, long_enough, moved
+from core.proposal.walks import Pose, Step, dubins, length_of, long_enough, moved, way_through
 from core.values import Floats
 
 # Distance of the points of a leg at which its room is measured [m].
@@ -154,13 +154,9 @@ class LegFinder:
         if self.heedless:
             return None
 
-        def way(channel: tuple[Pose, float]) -> float:
-            entry, length = channel
-            return math.dist(begin[:2], entry[:2]) + math.dist(moved(entry, (length, 0.0))[:2], end[:2])
-
         ahead = np.array(end[:2]) - begin[:2]
         along = [one for one in self.channels if ahead @ (math.cos(one[0][2]), math.sin(one[0][2])) >= 0.0]
-        channels = sorted(along, key=way)[:CHANNELS_MOST]
+        channels = sorted(along, key=partial(way_through, begin, end))[:CHANNELS_MOST]
         leads = (self.needs.chord, 0.5 * self.needs.chord, 0.0)
         for eased, radius, (entry, length), lead in product((False, True), self.needs.radii, channels, leads):
             first = self._walk(begin, moved(entry, (-lead, 0.0)), radius, CHANNEL_STRETCHES, eased=eased)

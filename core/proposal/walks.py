@@ -192,3 +192,9 @@ def _turn(angle: float) -> float:
     """An angle in [0, 2 pi); 0 for one that rounding alone keeps from it [rad]."""
     turned = angle % (2.0 * math.pi)
     return 0.0 if 2.0 * math.pi - turned < 1e-12 else turned
+
+
+def way_through(begin: Pose, end: Pose, channel: tuple[Pose, float]) -> float:
+    """The straight ways from a pose to a channel, and from its end to another pose, in all [m]."""
+    entry, length = channel
+    return math.dist(begin[:2], entry[:2]) + math.dist(moved(entry, (length, 0.0))[:2], end[:2])
