@@ -50,11 +50,17 @@ export class Jobs {
 
   /** Start a sweep. throws: Problem */
   async start(spec) {
-    this.add(await this.service.ask("sweep", "sweeps", { body: spec, headers: bearer() }), spec);
+    this.#add(await this.service.ask("sweep", "sweeps", { body: spec, headers: bearer() }), spec);
   }
 
-  /** Follow a job that has begun. spec: {question, over}; follow(status): called with each status */
-  add(status, spec, follow = null) {
+  /** Ask a question as a job, and follow it. accept: type of its result; number: of a contest's question; follow(status): called with each status; throws: Problem */
+  async begin(path, /** @type {any} */ { query, body, accept, number }, follow) {
+    const headers = { Prefer: "respond-async", ...bearer() };
+    const status = await this.service.ask(`job ${path} ${accept} ${number}`, path, { query, body, headers, accept: `${accept}, application/json;q=0.1` });
+    this.#add(status, { question: path, over: {}, number }, follow);
+  }
+
+  #add(status, spec, follow = null) {
     follow?.(status);
     this.#jobs = new Map([[status.jobID, { spec, status, follow, opened: false }], ...this.#jobs]);
     this.#remember();

@@ -2,7 +2,7 @@
 
 import { Problem, TOO_LONG, commandFor } from "./api.js";
 import { keptVenueOf, lanesOf, venueOf } from "./drawing.js";
-import { $, $$, bearer, button, download, hide, make, onClick, textButton } from "./elements.js";
+import { $, $$, button, download, hide, make, onClick, textButton } from "./elements.js";
 import { CONTACT, DRAGON, FIELDS, LABELS, TURN, numbersOf, strayOf } from "./fields.js";
 import { showShare } from "./jobs.js";
 import { announce, announceRefusal, copy } from "./overlays.js";
@@ -298,10 +298,8 @@ export class Keep {
 
   /** Start a job, which is among the jobs too. */
   async #begin(item, form) {
-    const { path, query, body } = this.#requests[item.ask](this.questions, form);
-    const headers = { Prefer: "respond-async", ...bearer() };
-    const status = await this.service.ask(`keep ${form}`, path, { query, body, headers, accept: `${TYPES[form]}, application/json;q=0.1` });
-    this.jobs.add(status, { question: path, over: {} }, (now) => this.#follow(item, form, now));
+    const { path, ...question } = this.#requests[item.ask](this.questions, form);
+    await this.jobs.begin(path, { ...question, accept: TYPES[form] }, (now) => this.#follow(item, form, now));
   }
 
   /** Show on its button how far a job is; then a film opens there, and any other result is saved. */

@@ -1,7 +1,7 @@
 /** The five questions of the contest on one strip: each with its answer, why, a picture, what is handed in, and a check of one's own. */
 
 import { Problem, Superseded } from "./api.js";
-import { $, bearer, button, download, make } from "./elements.js";
+import { $, button, download, make } from "./elements.js";
 import { FIELDS } from "./fields.js";
 import { judge } from "./grade.js";
 import { showShare } from "./jobs.js";
@@ -174,17 +174,16 @@ export class Strip {
   async #handIn(question) {
     const { hand, made } = this.kept[question - 1];
     if (hand.classList.contains("going") || hand.disabled) return;
-    const [name, body] = [archiveOf(question), { question, language: language() }];
+    const name = archiveOf(question);
     hand.disabled = true;
     made.replaceChildren();
+    const asked = { body: { question, language: language() }, accept: "application/zip" };
     try {
       const jobs = await this.jobs();
-      const headers = { Prefer: "respond-async", ...bearer() };
-      const status = await this.service.ask(`hand-in-${question}`, "contest-kit", { body, headers, accept: "application/zip, application/json;q=0.1" }).catch(() => null);
-      if (status) jobs.add(status, { question: "contest-kit", over: {}, number: question }, (now) => this.#follow(question, now));
+      const isJob = await jobs.begin("contest-kit", { ...asked, number: question }, (now) => this.#follow(question, now)).then(() => true, () => false);
       announce(() => say("Being made: “{name}”. It is saved as soon as it is ready.", { name }), true);
-      if (status) return;
-      download(await this.service.ask(`hand-in-${question}`, "contest-kit", { body, accept: "application/zip" }), name);
+      if (isJob) return;
+      download(await this.service.ask(`hand-in-${question}`, "contest-kit", asked), name);
       announceSaved(name);
     } catch (error) {
       announceRefusal(error);
