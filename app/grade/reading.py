@@ -24,6 +24,9 @@ PICTURES, PDF = (b"\x89PNG", b"\xff\xd8\xff", b"GIF8", b"BM"), b"%PDF"
 BOXED_PICTURES = (b"WEBP", b"ftypheic", b"ftypheix", b"ftypavif", b"ftypmif1")
 # Separators of cells, the usual one first, and the part of a file in which they are looked for [characters].
 SEPARATORS, LOOKED_AT = ",;\t", 20_000
+# Beginnings of a web page; and by how many times lines have more cells than their heads where a comma stands in most
+# numbers too [1], fewest heads, and most lines that are looked at.
+PAGES, COMMAS, HEADS_LEAST, LINES_LOOKED_AT = ("<html", "<!doctype", "<?xml"), 1.6, 3, 50
 # Encodings to try: UTF-8, then that of Chinese versions of Excel.
 CODINGS = ("utf-8-sig", "gb18030")
 
@@ -56,6 +59,8 @@ def _is_picture(data: bytes) -> bool:
 
 def _of_csv(data: bytes, budget: Budget) -> Grid:
     text = _decoded(data)
+    if text[:LOOKED_AT].lstrip().lower().startswith(PAGES):
+        raise UnreadableTable(note("web_page"))
     separator = _separator_of(text)
     decimal = "." if separator == "," else ","
     rows: Cells = []
@@ -71,7 +76,19 @@ def _of_csv(data: bytes, budget: Budget) -> Grid:
             words.append(line)
     except csv.Error as error:
         raise UnreadableTable(note("no_csv")) from error
+    if separator == "," and _has_two_commas(words):
+        raise UnreadableTable(note("commas"))
     return Grid("", rows, words=words)
+
+
+def _has_two_commas(words: list[list[str]]) -> bool:
+    """True if a comma separates cells and stands in numbers: none has a point, and lines have nearly twice the cells
+    that their heads name."""
+    heads, *lines = words[:LINES_LOOKED_AT] or [[]]
+    count = sum(map(bool, heads))
+    has_points = any("." in cell for line in lines for cell in line[1:])
+    is_wide = len(lines) > 1 and min(sum(map(bool, line)) for line in lines) >= COMMAS * count
+    return count >= HEADS_LEAST and is_wide and not has_points
 
 
 def _separator_of(text: str) -> str:

@@ -43,6 +43,8 @@ ELEMENTS_MAX = 2_000_000
 ROWS_MAX, COLUMNS_MAX, SHEETS_MAX = 70_000, 1_000, 20
 # Most cells of all sheets, with the blanks before the last one of each row: a list of result1 has 337,120.
 CELLS_MAX = 2_000_000
+# Parts by which the files of other programs are known.
+PROGRAMS = {"META-INF/manifest.xml": "LibreOffice (.ods)", "Index/Document.iwa": "Numbers"}
 MAIN, MACROS = "xl/workbook.xml", "xl/vbaProject.bin"
 # Names of elements of a sheet, and the beginning of all names in Strict Open XML, which openpyxl cannot read.
 ROW, CELL, FORMULA, VALUE, MERGED = (
@@ -109,7 +111,8 @@ def _refuse_traps(archive: zipfile.ZipFile, budget: Budget) -> list[Note]:
     """
     parts, names = archive.infolist(), archive.namelist()
     if MAIN not in names:
-        raise UnreadableTable(note("other_archive"))
+        program = next((program for part, program in PROGRAMS.items() if part in names), None)
+        raise UnreadableTable(note("other_program", program=program) if program else note("other_archive"))
     notes, elements, unpacked = [note("macros")] if MACROS in names else [], 0, 0
 
     def unpacking(part: zipfile.ZipInfo) -> Iterator[bytes]:
