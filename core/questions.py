@@ -64,7 +64,7 @@ def unanswered(
     return error
 
 
-class Question(Protocol[A_contra, B_contra, P, R_co, S_co]):
+class EitherQuestion(Protocol[A_contra, B_contra, P, R_co, S_co]):
     """A question that takes a subject of either kind, and has an answer for each."""
 
     @overload
@@ -75,11 +75,11 @@ class Question(Protocol[A_contra, B_contra, P, R_co, S_co]):
 
 def or_about(
     kind: type[B_contra], answer: Callable[..., S_co]
-) -> Callable[[Callable[Concatenate[A_contra, P], R_co]], Question[A_contra, B_contra, P, R_co, S_co]]:
+) -> Callable[[Callable[Concatenate[A_contra, P], R_co]], EitherQuestion[A_contra, B_contra, P, R_co, S_co]]:
     """Decorator of a question, whose first argument may also be of this kind; `answer` then answers it, with the same
     further arguments."""
 
-    def either(question: Callable[Concatenate[A_contra, P], R_co]) -> Question[A_contra, B_contra, P, R_co, S_co]:
+    def either(question: Callable[Concatenate[A_contra, P], R_co]) -> EitherQuestion[A_contra, B_contra, P, R_co, S_co]:
         name = next(iter(signature(question).parameters))
 
         @wraps(question)

@@ -20,7 +20,7 @@ from app.files.typeset import Face, measured, typeset
 from app.maps.marks import line_of, mark_name
 from app.plan.drawing import MapDrawing, Scale, look, turned_by
 from app.plan.ground import CIRCLE, IN_BENCH, draw_arrows, draw_venue, thinned
-from app.plan.paper import Paper, PaperName, Places, box_about
+from app.plan.paper import Paper, PaperName, TextRoom, box_about
 from core import Budget, Dance, Venue
 from core.language import joined, say
 from core.people.cards import Card, Cue
@@ -160,7 +160,7 @@ def _picture(sheets: CardSheets, card: Card, wide: float, high: float) -> dict[s
     drawing.line(track, 6, 1.2, BLUE)
     draw_arrows(drawing, track, apart=ARROWS)
     _draw_bench(drawing, sheets.dance, card)
-    way = Places()
+    way = TextRoom()
     way.take(on_track)
     _draw_marks(drawing, sheets, (bench.start.s, bench.done.s), way)
     draw_venue(drawing, sheets.venue, small=True, off=way)
@@ -206,7 +206,7 @@ def _arrow(drawing: MapDrawing, track: Floats) -> tuple[float, float]:
     return x - ARROW_IN_BOX[0], top - y - ARROW_IN_BOX[1]
 
 
-def _draw_moments(drawing: MapDrawing, cues: Sequence[Cue], way: Places) -> None:
+def _draw_moments(drawing: MapDrawing, cues: Sequence[Cue], way: TextRoom) -> None:
     """Draw a dot for each cue, and its number in a circle, which covers no other one, and not the way if that can
     be; at the dot itself if there is no other place."""
     wide, space = 2.0 * MOMENT, 2.0 * (MOMENT + BESIDE)
@@ -223,7 +223,7 @@ def _draw_moments(drawing: MapDrawing, cues: Sequence[Cue], way: Places) -> None
         drawing.write(str(number), x, y, NUMBER_TYPE, bold=True)
 
 
-def _draw_landmarks(drawing: MapDrawing, sheets: CardSheets, way: Places) -> None:
+def _draw_landmarks(drawing: MapDrawing, sheets: CardSheets, way: TextRoom) -> None:
     """Name the landmarks of the words, such as gates, that are no things of the square, where there is room."""
     things = {area.name for area in sheets.venue.areas} if sheets.venue else ()
     for name, place in sheets.words.landmarks:
@@ -234,7 +234,7 @@ def _draw_landmarks(drawing: MapDrawing, sheets: CardSheets, way: Places) -> Non
             drawing.label(name, NAME_TYPE, places, off=way)
 
 
-def _draw_marks(drawing: MapDrawing, sheets: CardSheets, places: Sequence[float], way: Places) -> None:
+def _draw_marks(drawing: MapDrawing, sheets: CardSheets, places: Sequence[float], way: TextRoom) -> None:
     """Draw a cross at the chalk mark nearest to each of these places along the path, with its name where room is."""
     chalk, path = sheets.words.chalk, sheets.dance.path
     low, high = path.drawn_between(min(chalk.first, path.begin), path.end)

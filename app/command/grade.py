@@ -18,7 +18,7 @@ from app.command.options import Json
 from app.extras import require
 from app.files.disk import checked_output, ending_of, write_whole
 from app.files.workbooks import table_workbook
-from app.grade.class_table import Row, alike, rubric_of, team_points
+from app.grade.class_table import ClassRow, alike, rubric_of, team_points
 from app.grade.judged import MISSING, WRONG
 from app.grade.reading import FILE_MAX
 from app.grade.report import (
@@ -34,7 +34,7 @@ from app.grade.report import (
 from app.grade.words import Note, note, word
 from app.processes.limits import READING_MAX, reading
 from app.wire.fields import ESCAPED
-from app.wire.labels import Heading, Part, Table
+from app.wire.labels import Heading, Part, TextTable
 from app.wire.texts import text_to_cell
 from core import Budget, InvalidValue, TooMuchWork
 from core.language import Listed, say
@@ -81,7 +81,7 @@ def grade(
     shared = {*(files or [])} | (parents if len(parents) == 1 else set())
     answers = [typed(name, text) for name, text in typed_numbers.items()]
     grades: list[FileAnswer] = []
-    rows: list[Row] = []
+    rows: list[ClassRow] = []
     refused = []
     with show.steps() if len(paths) > 1 else nullcontext(lambda what, share: None) as progress:
         for k, file in enumerate(paths):
@@ -116,10 +116,10 @@ def _why(error: OSError) -> Note | str | None:
     return note(code) if code else error.strerror
 
 
-def _row_of(file: Path, team: str, graded: FileAnswer, data: bytes) -> Row:
+def _row_of(file: Path, team: str, graded: FileAnswer, data: bytes) -> ClassRow:
     """A file on the table of its class."""
     cells, right, missing = _counts(graded)
-    return Row(
+    return ClassRow(
         team.translate(ESCAPED),
         file.name.translate(ESCAPED),
         graded.workbook,
@@ -134,7 +134,7 @@ def _row_of(file: Path, team: str, graded: FileAnswer, data: bytes) -> Row:
 
 
 def _teams(points: list[tuple[str, float]]) -> Iterator[Part]:
-    table = Table(word("class_sheet"), word("class_team"), word("class_points"))
+    table = TextTable(word("class_sheet"), word("class_team"), word("class_points"))
     for team, value in points:
         table.add(team, f"{value:g}")
     yield table
@@ -224,7 +224,7 @@ def _parts(answer: GradeAnswer) -> Iterator[Part]:
     for file in answer.files:
         yield from _file(file)
     if len(answer.files) > 1:
-        table = Table(word("summary"), *_heads())
+        table = TextTable(word("summary"), *_heads())
         for file in answer.files:
             table.add(*(f"{cell:,}" if isinstance(cell, int) else cell for cell in _row(file)))
         yield table

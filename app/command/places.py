@@ -18,7 +18,7 @@ from app.maps.dance_parts import DanceParts
 from app.maps.places import Places, drawn_layers, map_data, read_map
 from app.maps.tracks import CHORD
 from app.wire.fields import Coordinates
-from app.wire.labels import Table
+from app.wire.labels import TextTable
 from core import InvalidValue
 from core.language import counted, phrase, say
 from core.quantities import Given
@@ -98,7 +98,7 @@ def _print_layers(file: Path, json: bool) -> None:
     if json:
         show.print_json(Places(path=None, venue=None, dance=None, passages=None, notes=[], layers=layers).to_json())
         return
-    table = Table(say("Layers"), say("layer"), say("edges"))
+    table = TextTable(say("Layers"), say("layer"), say("edges"))
     for layer in layers:
         table.add(layer.name, str(layer.edges))
     show.print_parts(table)
@@ -106,7 +106,7 @@ def _print_layers(file: Path, json: bool) -> None:
 
 def _print(parts: DanceParts) -> None:
     heads = say("name"), say("what"), "x [m]", "y [m]"
-    table = Table(say("What the map holds"), *heads)
+    table = TextTable(say("What the map holds"), *heads)
     for area in parts.venue.areas if parts.venue else ():
         is_square = parts.venue is not None and area is parts.venue.square
         what = say("square") if is_square else say("obstacle")

@@ -22,7 +22,7 @@ from app.command.interrupts import interrupts
 from app.files.disk import write_whole
 from app.wire.answers import Columns
 from app.wire.fields import Answer
-from app.wire.labels import Heading, Part, Table
+from app.wire.labels import Heading, Part, TextTable
 from core.language import Language, named_language, say
 
 # Width that a table takes beside its entries: for each column, and at both sides together [characters].
@@ -114,7 +114,7 @@ def print_parts(*parts: Part | RichTable) -> None:
         if isinstance(part, str):
             console.print(Text(part, style="bold") if isinstance(part, Heading) else part)
         else:
-            console.print(_fitted(_rich(part, console.width) if isinstance(part, Table) else part, console))
+            console.print(_fitted(_rich(part, console.width) if isinstance(part, TextTable) else part, console))
 
 
 def _fitted(table: RichTable, console: Console) -> RichTable | str:
@@ -151,7 +151,7 @@ def write(file: Path, data: bytes, note: str = "") -> None:
     print(say("{name}: {text}", name=file, text=note) if note else file, file=sys.stderr)
 
 
-def _rich(table: Table, width: int) -> RichTable:
+def _rich(table: TextTable, width: int) -> RichTable:
     """width: of the terminal, to which the lines are folded"""
     has_heads = bool(table.heads)
     rich = RichTable(title=table.title, box=box.SIMPLE, show_header=has_heads, title_justify="left", title_style="bold")
@@ -162,7 +162,7 @@ def _rich(table: Table, width: int) -> RichTable:
     return rich
 
 
-def _narrowed(table: Table, width: int) -> Sequence[Sequence[str]]:
+def _narrowed(table: TextTable, width: int) -> Sequence[Sequence[str]]:
     """The lines of a table with heads; in one that is too wide the widest column is folded, if that is enough."""
     columns = list(zip(table.heads, *table.lines, strict=True))
     widths = [max(map(cell_len, column)) for column in columns]

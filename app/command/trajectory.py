@@ -16,7 +16,7 @@ from app.files import tables
 from app.files.tables import PAPER_HANDLES
 from app.questions.trajectory import QUESTION, TrajectoryRequest
 from app.wire.fields import Wire
-from app.wire.labels import DISPLAY_DECIMALS, Part, Table
+from app.wire.labels import DISPLAY_DECIMALS, Part, TextTable
 from app.wire.numbers import numbers_of
 from app.wire.question import Terms
 from core import Dragon, InvalidValue, RunEnd, Trajectory
@@ -105,7 +105,7 @@ def _parts(result: Trajectory, handles: Sequence[int] | None, names: Sequence[st
     blocks = _blocks(result, rows, instant_names, room, all_instants, places)
     for what, values in (("x [m]", x), ("y [m]", y), (say("speed [m/s]"), result.speed)):
         for block in blocks:
-            table = Table(f"{look.title}{what}", say("handle"), *(instant_names[t] for t in block))
+            table = TextTable(f"{look.title}{what}", say("handle"), *(instant_names[t] for t in block))
             for k, label in zip(rows, labels, strict=True):
                 table.add(label, *(_entry(value, places) for value in values[block, k]))
             yield table

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from app.files.drawing import draw_areas, in_turn
 from app.files.film_labels import MARKED_SHARE, CornerText, Labels, LabelsBeside, NameLabels, numbered, size_of
-from app.files.film_planes import COLOURS, YUV, Paper, Tone
+from app.files.film_planes import COLOURS, YUV, Canvas, Tone
 from app.files.film_spec import MP4_TYPE, FilmSpec
 from app.files.fonts import families_for
 from app.files.looks import colour_of, with_square
@@ -151,7 +151,7 @@ def frames(stage: FilmPicture, spec: FilmSpec, budget: Budget) -> Iterator[NDArr
             yield stage.frame(time, [own[k] for own in outlines], is_last=first + k == times.size - 1)
 
 
-class Layer(NamedTuple):
+class DragonLayer(NamedTuple):
     """What moves of one dragon. head, body: colours of the area and of its line
     words: of the marked benches, by number; wider: times their widths are drawn (M,)"""
 
@@ -234,7 +234,7 @@ class FilmPicture:
         # Here, because matplotlib draws for one thread at a time.
         self.time.prepare(DIGITS + self.words(spec.stop))
         self.canvas.draw()
-        self.paper = Paper(np.asarray(self.canvas.buffer_rgba()), tones)
+        self.paper = Canvas(np.asarray(self.canvas.buffer_rgba()), tones)
 
     def _look(self, low: Floats, high: Floats, spec: FilmSpec) -> None:
         """Show everything between two corners, at one scale for x and y that fills the frame."""
@@ -252,7 +252,7 @@ class FilmPicture:
             places = self.axes.transData.transform(outlines.reshape(-1, 2)).reshape(-1, 4, 2)
             self.paper.fill(np.array([0.0, self.paper.height]) + np.array([1.0, -1.0]) * places, face, edge, line)
 
-    def _layer(self, k: int, dragon: Dragon, spec: FilmSpec) -> Layer:
+    def _layer(self, k: int, dragon: Dragon, spec: FilmSpec) -> DragonLayer:
         """What moves of a dragon."""
         head, body, edge, around = self.colours(k)
         own = [bench for one, bench in spec.marked if one == k]
@@ -268,7 +268,7 @@ class FilmPicture:
             Labels(self.axes, {bench: str(bench) for bench in plain if bench not in words}, size, around),
             LabelsBeside(self.axes, words, size_of(spec.height, MARKED_SHARE), drawn),
         ]
-        return Layer((head, head_edge), (body, edge), words, drawn / widths[own], labels)
+        return DragonLayer((head, head_edge), (body, edge), words, drawn / widths[own], labels)
 
     def touching(self) -> tuple[list[tuple[int, int]], str]:
         """Dragon and number of the two benches that touch at the last instant, and that they do in words."""
@@ -285,7 +285,7 @@ class FilmPicture:
         return [(dragons[0], a), (dragons[1], b)], words
 
     def frame(self, time: float, outlines: Sequence[Floats], *, is_last: bool = False) -> NDArray[np.uint8]:
-        """The picture, as Paper.picture, at one instant [s].
+        """The picture, as Canvas.picture, at one instant [s].
 
         outlines: (n, 4, 2) of each dragon [m]; is_last: mark and name the benches that touch then
         """

@@ -82,7 +82,7 @@ class Stamp:
 Placed = tuple[Stamp, int, int]
 
 
-class Plane:
+class PicturePlane:
     """A plane of a picture: what stands still, and what is drawn on it."""
 
     def __init__(self, tone: Tone, still: Bytes) -> None:
@@ -118,13 +118,13 @@ class Plane:
         under[...] = mixed
 
 
-class Paper:
+class Canvas:
     """A picture on which benches and stamps are drawn again and again."""
 
     def __init__(self, still: Bytes, tones: tuple[Tone, ...]) -> None:
         """still: the picture (height, width, 4) without what moves"""
         self.height, self.width = still.shape[:2]
-        self._planes = [Plane(tone, still) for tone in tones]
+        self._planes = [PicturePlane(tone, still) for tone in tones]
 
     def begin(self) -> None:
         """Take away what was drawn."""

@@ -23,7 +23,7 @@ LAYERS = (("ENVELOPE", 1), ("ENVELOPE_HOLES", 5))
 METRES, VERSION = 6, "R2000"
 
 
-class Ground(NamedTuple):
+class NamedGround(NamedTuple):
     """The envelope of one of several dragons, and its name."""
 
     name: str | None
@@ -35,7 +35,7 @@ def envelope_geojson(envelope: Envelope) -> bytes:
     return orjson.dumps(_feature(envelope))
 
 
-def grounds_geojson(grounds: Sequence[Ground]) -> bytes:
+def grounds_geojson(grounds: Sequence[NamedGround]) -> bytes:
     """A collection with the feature of each dragon, which has its number, its name and the times of its own dance."""
     features = [_feature(one.envelope, {"dragon": k, "dragon_name": one.name}) for k, one in enumerate(grounds)]
     return orjson.dumps({"type": "FeatureCollection", "features": features})
@@ -76,7 +76,7 @@ def envelope_dxf(envelope: Envelope) -> bytes:
     return _drawing([(LAYERS, envelope)])
 
 
-def grounds_dxf(grounds: Sequence[Ground]) -> bytes:
+def grounds_dxf(grounds: Sequence[NamedGround]) -> bytes:
     """A DXF drawing with two layers for each dragon, whose number they end in. raises: MissingPackage"""
     layers = [[(f"{name}_{k}", colour) for name, colour in LAYERS] for k in range(len(grounds))]
     return _drawing(list(zip(layers, [one.envelope for one in grounds], strict=True)))

@@ -33,7 +33,7 @@ SHARED_LEAST, SHARED_SHARE = 3, 0.5
 
 
 @dataclass(frozen=True)
-class Row:
+class ClassRow:
     """A graded file. team, file: names; workbook: result1, result2, result4 or None; digest: of its bytes
 
     cells, right, rounded, missing: numbers of its cells that the contest requires, that are right, that are right to
@@ -85,14 +85,14 @@ def rubric_text(rubric: dict[str, float]) -> str:
     return "\n".join([",".join([word("rubric_what"), word("rubric_points")]), *lines]) + "\n"
 
 
-def points_of(row: Row, rubric: dict[str, float]) -> float:
+def points_of(row: ClassRow, rubric: dict[str, float]) -> float:
     """Points of a file: a cell that is right has an equal part of them, one that is rounded a share of that part."""
     if row.workbook not in WORKBOOKS or not row.cells:
         return 0.0
     return round(rubric[row.workbook] * (row.right + rubric[ROUNDED] * row.rounded) / row.cells, DECIMALS)
 
 
-def team_points(rows: Sequence[Row], rubric: dict[str, float]) -> list[tuple[str, float]]:
+def team_points(rows: Sequence[ClassRow], rubric: dict[str, float]) -> list[tuple[str, float]]:
     """Points of each team, the most first: of several files for one workbook the best counts."""
     best: dict[str, dict[str | None, float]] = defaultdict(dict)
     for row in rows:
@@ -102,7 +102,7 @@ def team_points(rows: Sequence[Row], rubric: dict[str, float]) -> list[tuple[str
     return sorted(points.items(), key=lambda one: (-one[1], one[0]))
 
 
-def remarks(rows: Sequence[Row]) -> list[tuple[list[Row], str]]:
+def remarks(rows: Sequence[ClassRow]) -> list[tuple[list[ClassRow], str]]:
     """Files of several teams that are alike, each group with its remark: of equal bytes, then of wrong numbers."""
     same = defaultdict(list)
     for row in rows:
@@ -119,17 +119,17 @@ def remarks(rows: Sequence[Row]) -> list[tuple[list[Row], str]]:
     return found
 
 
-def alike(rows: Sequence[Row]) -> list[str]:
+def alike(rows: Sequence[ClassRow]) -> list[str]:
     """The remarks on files that are alike."""
     return [words for _, words in remarks(rows)]
 
 
-def _is_plain(row: Row) -> bool:
+def _is_plain(row: ClassRow) -> bool:
     """True for right numbers in plain text, which are the same bytes for everyone who writes them alike."""
     return row.file.lower().endswith(".csv") and row.verdict in (Rating.RIGHT, Rating.ROUNDED)
 
 
-def _sharing(rows: Sequence[Row]) -> list[tuple[list[Row], set[str]]]:
+def _sharing(rows: Sequence[ClassRow]) -> list[tuple[list[ClassRow], set[str]]]:
     """Groups of files of several teams in which most of the numbers compared are the same wrong ones, with these."""
     holders: dict[str, list[int]] = defaultdict(list)
     for k, row in enumerate(rows):
@@ -147,10 +147,10 @@ def _sharing(rows: Sequence[Row]) -> list[tuple[list[Row], set[str]]]:
     return [(group, numbers) for group, numbers in shared if numbers]
 
 
-def _teams(group: Sequence[Row]) -> int:
+def _teams(group: Sequence[ClassRow]) -> int:
     return len({row.team for row in group})
 
 
-def names_of(group: Sequence[Row]) -> str:
+def names_of(group: Sequence[ClassRow]) -> str:
     """The files, each with its team; empty for none."""
     return str(Listed(f"{row.team}/{row.file}" for row in group)) if group else ""

@@ -108,7 +108,7 @@ class Numbers:
 
 
 @dataclass(frozen=True)
-class Side:
+class Orientation:
     """A sheet as its tables are read: upright, or with its rows and columns swapped.
 
     title: of the sheet; cells: a rectangle; turned: True if rows and columns were swapped
@@ -118,8 +118,8 @@ class Side:
     cells: Cells
     turned: bool = False
 
-    def swapped(self) -> Side:
-        return Side(self.title, [list(line) for line in zip(*self.cells, strict=True)], not self.turned)
+    def swapped(self) -> Orientation:
+        return Orientation(self.title, [list(line) for line in zip(*self.cells, strict=True)], not self.turned)
 
     def table(
         self, kind: TableKind, times: Floats, handles: Ints, numbers: Iterable[Numbers], by_order: Ints | None = None
@@ -137,7 +137,7 @@ class Side:
         return SheetTable(self.title, kind, times, handles, order, values, above, aside, odd.notes())
 
 
-def wide_tables(side: Side, *, numbered: bool, named: frozenset[int] = frozenset()) -> list[SheetTable]:
+def wide_tables(side: Orientation, *, numbered: bool, named: frozenset[int] = frozenset()) -> list[SheetTable]:
     """The tables of a sheet with a line for each handle, below or beside each other; none if no column labels handles.
 
     numbered: True if numbers alone may label the handles; else they may in one table where names do in another
@@ -240,7 +240,7 @@ def _component_of(cell: Cell) -> int | None:
     return label.component if label and is_one else None
 
 
-def _tables_of(side: Side, lines: list[Line], heads: Cells, aside: int) -> list[SheetTable]:
+def _tables_of(side: Orientation, lines: list[Line], heads: Cells, aside: int) -> list[SheetTable]:
     """The tables of some lines: those of their columns, if these are headed x and y; else those of their labels."""
     columns = _columns(heads, aside)
     if {X, Y} <= {component for _, component in columns}:
@@ -299,7 +299,7 @@ def _first_columns(cells: Cells, first: int) -> Cells:
     return [[row[k] for row in cells] for k in range(first, min(first + MARGIN, len(cells[0])))]
 
 
-def holds_angles(side: Side) -> bool:
+def holds_angles(side: Orientation) -> bool:
     """True if a sheet says that it holds angles, and names neither a place nor a speed."""
     components = {label.component for text in [side.title, *_margin(side.cells)] if (label := label_of(text))}
     return ANGLE in components and not components & {X, Y, SPEED}
@@ -367,7 +367,7 @@ def _times(heads: Cells, cells: Cells, aside: int) -> dict[int, float]:
     return {k: start + n for n, k in enumerate(columns)}
 
 
-def _over_time(side: Side, lines: list[Line], times: dict[int, float], stated: int = SPEED) -> list[SheetTable]:
+def _over_time(side: Orientation, lines: list[Line], times: dict[int, float], stated: int = SPEED) -> list[SheetTable]:
     """Positions and speeds of handles at instants, in lines with labels of both.
 
     stated: component of lines whose labels name none
@@ -383,7 +383,7 @@ def _over_time(side: Side, lines: list[Line], times: dict[int, float], stated: i
     return [table for table in tables if table]
 
 
-def _by_columns(side: Side, lines: list[Line], heads: Cells, columns: Columns) -> list[SheetTable]:
+def _by_columns(side: Orientation, lines: list[Line], heads: Cells, columns: Columns) -> list[SheetTable]:
     """Tables of columns for x, y and speed: at their instants, or at one that is stated above them, or not given."""
     times = sorted({time for time, _ in columns if time is not None})
     if not times:
@@ -396,7 +396,7 @@ def _by_columns(side: Side, lines: list[Line], heads: Cells, columns: Columns) -
 
 
 def _columns_table(
-    side: Side, kind: TableKind, lines: list[Line], columns: Columns, times: Sequence[float | None]
+    side: Orientation, kind: TableKind, lines: list[Line], columns: Columns, times: Sequence[float | None]
 ) -> SheetTable:
     """The table of columns for x, y or speed. times: of its instants [s]"""
     rows = [k for k, _ in lines]
@@ -410,7 +410,7 @@ def _columns_table(
     return side.table(kind, np.array(times, dtype=np.float64), handles, numbers, by_order)
 
 
-def _table_of(side: Side, kind: TableKind, lines: list[Line], times: dict[int, float]) -> SheetTable | None:
+def _table_of(side: Orientation, kind: TableKind, lines: list[Line], times: dict[int, float]) -> SheetTable | None:
     """The table of the given lines and instants."""
     components = COMPONENTS[kind]
     lines = [(k, label) for k, label in lines if label.component in components]
@@ -425,7 +425,7 @@ def _table_of(side: Side, kind: TableKind, lines: list[Line], times: dict[int, f
     return side.table(kind, np.array(list(times.values())), handles, numbers)
 
 
-def bare_tables(side: Side) -> list[SheetTable]:
+def bare_tables(side: Orientation) -> list[SheetTable]:
     """The tables of numbers without labels of handles, recognised by their size; none for another size."""
     cells = side.cells
     numeric = [k for k, row in enumerate(cells) if sum(isinstance(cell, float) for cell in row) > len(row) // 2]

@@ -13,7 +13,7 @@ import numpy as np
 from app.grade.grid import Cell, Cells, normalized
 from app.grade.handles import BENCHES, EXTRA_MOST, HANDLES, LABELS_LEAST, Ints
 from app.grade.labels import TIME_WORD, heading_of, instant_of, is_handle_heading, label_of, stated_instant
-from app.grade.layout import COMPONENTS, MARGIN, OVER_TIME, Numbers, SheetTable, Side, TableKind
+from app.grade.layout import COMPONENTS, MARGIN, OVER_TIME, Numbers, Orientation, SheetTable, TableKind
 
 # Lines whose labels are looked at.
 LOOK = 20
@@ -22,7 +22,7 @@ NUMBER = re.compile(r"\d+")
 Columns = dict[str, int]
 
 
-def lists_of(side: Side) -> list[SheetTable]:
+def lists_of(side: Orientation) -> list[SheetTable]:
     """Tables of positions and of speeds in a list, or the one of an instant; none if the sheet is not a list."""
     for head, row in enumerate(side.cells[:MARGIN]):
         columns, below = _columns(row), side.cells[head + 1 :]
@@ -94,7 +94,7 @@ def _numbered(labels: list[int]) -> tuple[Ints, Ints]:
 
 
 def _tables_of(
-    side: Side, head: int, columns: Columns, kinds: list[TableKind], instants: Sequence[float | None]
+    side: Orientation, head: int, columns: Columns, kinds: list[TableKind], instants: Sequence[float | None]
 ) -> list[SheetTable]:
     """Tables of a list, from its lines that have an instant and a handle. instants: of each line below the head [s]"""
     named = [_handle_of(line[columns["handle"]]) for line in side.cells[head + 1 :]]

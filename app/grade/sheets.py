@@ -18,8 +18,8 @@ from app.grade.labels import SPEED_WORD, X, Y
 from app.grade.layout import (
     COMPONENTS,
     SHEETS,
+    Orientation,
     SheetTable,
-    Side,
     TableKind,
     bare_tables,
     holds_angles,
@@ -39,14 +39,14 @@ PLACE_WORD = re.compile(r"位置|坐标|position|coordinate", re.IGNORECASE)
 
 def tables_of(grids: Sequence[Grid]) -> list[SheetTable]:
     """The tables of the sheets of a file. The notes of each grid say what was left out."""
-    every = [Side(grid.title, _rectangle(grid)) for grid in grids]
+    every = [Orientation(grid.title, _rectangle(grid)) for grid in grids]
     sides = (side for upright in every for side in (upright, upright.swapped()))
     named = next(filter(None, (names_in(side.cells) for side in sides)), frozenset())
     tables = [table for grid, upright in zip(grids, every, strict=True) for table in _tables_of(grid, upright, named)]
     return at_contact(with_both_axes(tables))
 
 
-def _tables_of(grid: Grid, upright: Side, named: frozenset[int]) -> list[SheetTable]:
+def _tables_of(grid: Grid, upright: Orientation, named: frozenset[int]) -> list[SheetTable]:
     """The tables of a sheet; none if no numbers are recognised. named: handles that have names in the file"""
     if not upright.cells:
         return []
@@ -71,7 +71,7 @@ def _shown(table: SheetTable, words: list[list[str]] | None) -> int | None:
     return int(np.median(counts)) if 2 * len(counts) > known.sum() else None
 
 
-def _readings(upright: Side, named: frozenset[int]) -> Iterator[list[SheetTable]]:
+def _readings(upright: Orientation, named: frozenset[int]) -> Iterator[list[SheetTable]]:
     """What a sheet may hold, the surest first: a list, lines of handles with names, with numbers, or without labels."""
     yield lists_of(upright)
     sides = upright, upright.swapped()

@@ -25,7 +25,7 @@ from app.settings import Settings
 # Time for which the latest result of a client does not give way [s].
 FRESH = 600.0
 DAY = 86_400.0  # [s]
-# Columns of a Row.
+# Columns of a KeptJob.
 COLUMNS = "id, question, client, state, started, finished, updated, time_left, cost, size + call_size"
 
 
@@ -58,7 +58,7 @@ def counts(read: Callable[[str], list[Any]]) -> Counts:
 
 
 @dataclass(frozen=True)
-class Row:
+class KeptJob:
     """One job that is kept. Times are in seconds since 1970.
 
     time_left, cost: of its run, as reported and as estimated [s]; size: of its call and its result [bytes]
@@ -80,7 +80,7 @@ class Row:
         return self.state not in UNFINISHED
 
 
-def _bytes_of(jobs: Iterable[Row]) -> int:
+def _bytes_of(jobs: Iterable[KeptJob]) -> int:
     return sum(job.size for job in jobs)
 
 
@@ -99,10 +99,10 @@ def has_room(run: sqlite3.Connection, client: str, size: int, limits: Settings) 
 class Room:
     """The kept jobs, some of which may give way. `gone` are those that do."""
 
-    def __init__(self, jobs: Iterable[Row], client: str, limits: Settings, now: float) -> None:
+    def __init__(self, jobs: Iterable[KeptJob], client: str, limits: Settings, now: float) -> None:
         self.limits, self.client, self.now = limits, client, now
         self.gone: list[str] = []
-        self._of: dict[str, list[Row]] = defaultdict(list)
+        self._of: dict[str, list[KeptJob]] = defaultdict(list)
         for job in sorted(jobs, key=lambda job: job.finished or math.inf):
             self._of[job.client].append(job)
         self._own = self._of[client]
@@ -140,7 +140,7 @@ class Room:
         own, limits = self._own, self.limits
         return len(own) + more > limits.jobs_client_kept_max or _bytes_of(own) + size > limits.jobs_client_bytes_max
 
-    def _give_way(self, jobs: list[Row]) -> bool:
+    def _give_way(self, jobs: list[KeptJob]) -> bool:
         """Let the oldest finished job that may give way do so: False if there is none."""
         fresh = self._fresh_of(jobs)
         for job in jobs:  # The oldest end first.
@@ -150,12 +150,12 @@ class Room:
                 return True
         return False
 
-    def _fresh_of(self, jobs: Sequence[Row]) -> Row | None:
+    def _fresh_of(self, jobs: Sequence[KeptJob]) -> KeptJob | None:
         """The latest result of a client, while it must stay."""
         done = [job for job in jobs if job.is_finished and job.state != JobState.DISMISSED]
         return done[-1] if done and (done[-1].finished or 0.0) > self.now - self._fresh else None
 
-    def _ranked(self, measure: Callable[[list[Row]], int], more: int) -> list[list[Row]]:
+    def _ranked(self, measure: Callable[[list[KeptJob]], int], more: int) -> list[list[KeptJob]]:
         """The jobs of each client that may lose one, of the client that has most first; of the asking one on a tie.
 
         Of others with as much, the one whose oldest finished job is oldest comes first.
@@ -163,19 +163,19 @@ class Room:
         own_then = measure(self._own) + more
         others = [jobs for name, jobs in self._of.items() if name != self.client and measure(jobs) >= own_then]
 
-        def rank(jobs: list[Row]) -> tuple[int, bool, float]:
+        def rank(jobs: list[KeptJob]) -> tuple[int, bool, float]:
             most = own_then if jobs is self._own else measure(jobs)
             return -most, jobs is not self._own, jobs[0].finished or math.inf if jobs else math.inf
 
         return sorted([self._own, *others], key=rank)
 
-    def _give_way_of_most(self, measure: Callable[[list[Row]], int], more: int) -> bool:
+    def _give_way_of_most(self, measure: Callable[[list[KeptJob]], int], more: int) -> bool:
         return any(self._give_way(jobs) for jobs in self._ranked(measure, more))
 
-    def _wait_of_most(self, measure: Callable[[list[Row]], int], more: int) -> float:
+    def _wait_of_most(self, measure: Callable[[list[KeptJob]], int], more: int) -> float:
         return min(map(self._wait, self._ranked(measure, more)))
 
-    def _wait(self, jobs: Sequence[Row]) -> float:
+    def _wait(self, jobs: Sequence[KeptJob]) -> float:
         """Time after which one of these jobs may give way, as far as is known [s]."""
         fresh = self._fresh_of(jobs)
         waits = [(fresh.finished or 0.0) + self._fresh - self.now] if fresh else []
@@ -184,13 +184,13 @@ class Room:
             waits.append(self._first_end(unfinished) + self._fresh)
         return min(waits, default=math.inf)
 
-    def _first_end(self, jobs: Sequence[Row]) -> float:
+    def _first_end(self, jobs: Sequence[KeptJob]) -> float:
         """Time after which the first of these unfinished jobs should be done [s]."""
         running = [self._left(job) for many in self._of.values() for job in many if job.state == JobState.RUNNING]
         turn = min(running, default=0.0)
         return min(self._left(job) if job.state == JobState.RUNNING else turn + job.cost for job in jobs)
 
-    def _left(self, job: Row) -> float:
+    def _left(self, job: KeptJob) -> float:
         """Time that a running job should still take [s]: as reported, or as estimated; a late one as long again."""
         ran = max(self.now - (job.started or self.now), 0.0)
         most = self.limits.sweep_seconds_max if job.question == SWEEP else self.limits.job_seconds_max

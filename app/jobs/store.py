@@ -32,7 +32,7 @@ from app.jobs import room
 from app.jobs.clock import follow_clock
 from app.jobs.job import EXPIRED, GAVE_WAY, ID_BYTES, SWEEP, Job, JobState
 from app.jobs.reserve import Reserve
-from app.jobs.room import DAY, Counts, Room, Row, counts, has_room
+from app.jobs.room import DAY, Counts, KeptJob, Room, counts, has_room
 from app.jobs.tables import client_name, prepare
 from app.jobs.turns import next_job, note_turn
 from app.settings import Settings
@@ -230,7 +230,7 @@ class Store:
 
     def _kept(self, run: sqlite3.Connection, client: str, limits: Settings) -> Room:
         rows = run.execute(f"SELECT {room.COLUMNS} FROM jobs WHERE NOT expired")
-        return Room((Row(*row) for row in rows), client, limits, time.time())
+        return Room((KeptJob(*row) for row in rows), client, limits, time.time())
 
     def _give_way(self, run: sqlite3.Connection, jobs: list[str], most: int) -> None:
         """Remove calls and results of finished jobs. most: number of jobs without them that are remembered"""

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from app.files.typeset import POINT, Face
-from app.plan.paper import PAPERS, Box, Paper, PaperName, Places, box_about
+from app.plan.paper import PAPERS, Box, Paper, PaperName, TextRoom, box_about
 from core import Budget, InvalidValue
 from core.quantities import quantities
 from core.values import Floats
@@ -137,7 +137,7 @@ class MapDrawing:
     shapes: list[tuple[float, str]] = field(default_factory=list)
     texts: list[tuple[int, dict[str, Any]]] = field(default_factory=list)
     ticks: list[tuple[int, float, str]] = field(default_factory=list)
-    places: Places = field(default_factory=Places)
+    places: TextRoom = field(default_factory=TextRoom)
 
     @property
     def room(self) -> Box:
@@ -161,7 +161,7 @@ class MapDrawing:
         self.texts.append((order, {"words": words, "x": x - left, "y": top - y, "size": size, **look}))
 
     def label(
-        self, words: str, size: float, places: Iterable[Sequence[float]], off: Places | None = None, **more: Any
+        self, words: str, size: float, places: Iterable[Sequence[float]], off: TextRoom | None = None, **more: Any
     ) -> bool:
         """Write text at the first of the places where it is inside the room and overlaps nothing; False: none.
 

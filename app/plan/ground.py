@@ -13,7 +13,7 @@ from app.files.typeset import POINT, Face
 from app.maps.features import inner_point
 from app.maps.marks import line_of
 from app.plan.drawing import HATCHED, MapDrawing, Scale, look, scale_of, svg_of
-from app.plan.paper import Box, PaperName, Places
+from app.plan.paper import Box, PaperName, TextRoom
 from app.plan.timing import Timing
 from core import Budget, Dance, Venue
 from core.language import say
@@ -185,7 +185,7 @@ def _draw_coordinates(drawing: MapDrawing) -> None:
                 drawing.places.take(np.array(box))
 
 
-def draw_venue(drawing: MapDrawing, venue: Venue | None, *, small: bool = False, off: Places | None = None) -> None:
+def draw_venue(drawing: MapDrawing, venue: Venue | None, *, small: bool = False, off: TextRoom | None = None) -> None:
     """Draw the square and its obstacles, with their names where there is room.
 
     small: True for thin lines, whole up to the edge of the map, and a square without its name
@@ -270,7 +270,7 @@ def _draw_marks(drawing: MapDrawing, ground: GroundMap, line: Floats) -> None:
     near = [(begin[0] + side * beside, begin[1] + up) for up in (4.0, -4.0) for side in (1.0, -1.0)]
     drawing.label(words, 6.0, near, colour=VERMILION, on_paper=True)
     drawing.places.take(np.concatenate([ticks.min(axis=0), ticks.max(axis=0)], axis=1))
-    on_path = Places()
+    on_path = TextRoom()
     on_path.take(np.concatenate([line, line], axis=1))
     for k in sorted(range(len(points)), key=lambda k: (k % ROUND != 0, k)):
         near_by = [points[k] + side * BESIDE * normals[k] for side in (1.0, -1.0, 1.5, -1.5)]

@@ -42,7 +42,7 @@ def box_about(x: float, y: float, wide: float, high: float) -> Box:
     return x - 0.5 * wide, y - 0.5 * high, x + 0.5 * wide, y + 0.5 * high
 
 
-class Places:
+class TextRoom:
     """Where text may stand. State: boxes that are taken, each in all squares of CELL that it reaches."""
 
     def __init__(self) -> None:

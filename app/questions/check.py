@@ -19,7 +19,7 @@ from app.wire.clocks import clock_at_zero, time_of_day
 from app.wire.dances import PlacedDance, SpanFields, TimeRange, clock_of
 from app.wire.fields import Answer, CrossCheck, SpeedLimit, Wire, measure
 from app.wire.geojson import SQUARE
-from app.wire.labels import DISPLAY_DECIMALS, Heading, Part, Table, judged_words, separation, value_text, value_word
+from app.wire.labels import DISPLAY_DECIMALS, Heading, Part, TextTable, judged_words, separation, value_text, value_word
 from app.wire.performances import SeveralFields
 from app.wire.question import UNKNOWN_COST, Command, Output, Question, Terms, Writer
 from app.wire.readings import (
@@ -356,7 +356,7 @@ def _parts(report: Report | PerformanceReport, request: CheckRequest) -> Iterato
         yield say("Starts {begin}, ends {end}.", begin=report.begins, end=report.ends)
     yield ""
     title = say("From {start:.3f} to {stop:.3f} s", start=report.start, stop=report.stop)
-    facts = Table(title, say("what"), say("value"), say("at"), say("who"))
+    facts = TextTable(title, say("what"), say("value"), say("at"), say("who"))
     rows = (
         _measured(report, request.margin, request.benches)
         if isinstance(report, Report)

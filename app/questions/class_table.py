@@ -10,7 +10,7 @@ from pydantic import Field
 
 from app.files.tables import CSV_TYPE, XLSX_TYPE
 from app.files.workbooks import table_workbook
-from app.grade.class_table import Row, names_of, points_of, remarks, rubric_of, rubric_text, team_points
+from app.grade.class_table import ClassRow, names_of, points_of, remarks, rubric_of, rubric_text, team_points
 from app.grade.judged import Rating
 from app.grade.words import word
 from app.wire.fields import Answer, OneLine, Whole, Wire, measure
@@ -46,12 +46,12 @@ class GradedFile(Wire, strict=True):
         description="Its numbers that are compared with those of others, as /grade gives them",
     )
 
-    def to_row(self) -> Row:
+    def to_row(self) -> ClassRow:
         rounded = self.rounded
         if rounded is None:
             rounded = self.cells - self.right - self.missing if self.verdict is Rating.ROUNDED else 0
         counts = {"cells": self.cells, "right": self.right, "rounded": rounded, "missing": self.missing}
-        return Row(
+        return ClassRow(
             self.team, self.file, self.workbook, self.verdict, **counts, digest=self.digest, unusual=tuple(self.unusual)
         )
 

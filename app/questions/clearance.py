@@ -9,7 +9,7 @@ from app.questions.encounter import NearPass
 from app.wire.answers import Columns, Pair
 from app.wire.dances import TimedDance, TimeRange
 from app.wire.fields import Answer, DanceQuery, Wire
-from app.wire.labels import Part, Table, label, separation, value_text
+from app.wire.labels import Part, TextTable, label, separation, value_text
 from app.wire.performances import SeveralDances
 from app.wire.question import Command, Question, Terms
 from core.language import say
@@ -84,11 +84,11 @@ def _parts(answer: Columns, request: Wire) -> Iterator[Part]:
     columns = answer.columns
     pairs = [name for name in ("dragons", "benches") if name in columns]
     heads = label("time", "s"), label("clearance", "m"), *map(label, pairs)
-    table = Table(say("Clearance"), *heads)
+    table = TextTable(say("Clearance"), *heads)
     for time, clearance, *pair in zip(*(columns[name] for name in ("time", "clearance", *pairs)), strict=True):
         table.add(format_number(time), separation(clearance), *(value_text(tuple(one.tolist())) for one in pair))
     yield table
-    grazes = Table(say("Local minima"), *heads)
+    grazes = TextTable(say("Local minima"), *heads)
     for graze in columns["grazes"]:
         pair = [value_text(getattr(graze, name)) for name in pairs]
         grazes.add(value_text(graze.time), separation(graze.clearance), *pair)

@@ -22,7 +22,7 @@ from app.wire.answers import SENTENCES
 from app.wire.clocks import DAY, checked_clock
 from app.wire.dances import clock_of, starting
 from app.wire.fields import AS_WHOLE, Answer, Coordinate, Instant, OneLine, PaperSize, Wire, measure
-from app.wire.labels import Part, Table
+from app.wire.labels import Part, TextTable
 from app.wire.messages import checked
 from app.wire.numbers import numbers_of
 from app.wire.question import JSON, Command, ListOption, Question, Terms
@@ -370,7 +370,7 @@ def _parts(answer: Crew, request: CrewRequest) -> Iterator[Part]:
     title, *lacks = answer.sentences
     yield from lacks
     heads = say("person"), say("benches"), say("time [s]"), say("way [m]"), say("longest [s]")
-    table = Table(title, *heads)
+    table = TextTable(title, *heads)
     for one in answer.carriers:
         benches = str(Listed(dict.fromkeys(spell.bench for spell in one.spells))) or say("none")
         table.add(one.label, benches, *(f"{value:.1f}" for value in (one.time, one.way, one.longest)))
@@ -378,7 +378,7 @@ def _parts(answer: Crew, request: CrewRequest) -> Iterator[Part]:
     if roll := answer.at:
         time = roll.clock or f"{roll.time:g} s"
         heads = say("bench"), say("people"), "x [m]", "y [m]", say("mark [m]")
-        table = Table(say("Who is where at {time}", time=time), *heads)
+        table = TextTable(say("Who is where at {time}", time=time), *heads)
         for place in roll.benches:
             name = f"{place.bench} {place.name}".rstrip()
             table.add(name, " ".join(place.people), f"{place.x:.2f}", f"{place.y:.2f}", f"{place.mark:g}")

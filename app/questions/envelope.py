@@ -116,7 +116,7 @@ class PerformanceEnvelope(Answer):
 
 
 # Forms of an envelope besides JSON: media type -> functions of the envelope, and of those of several dragons.
-FORMS: dict[str, tuple[Callable[[core.Envelope], bytes], Callable[[Sequence[outlines.Ground]], bytes]]] = {
+FORMS: dict[str, tuple[Callable[[core.Envelope], bytes], Callable[[Sequence[outlines.NamedGround]], bytes]]] = {
     GEOJSON_TYPE: (outlines.envelope_geojson, outlines.grounds_geojson)
 }
 if find_spec("ezdxf"):
@@ -139,7 +139,7 @@ def _with_file(
         return Envelope.of(result, request), {"output": lambda form: FORMS[form][0](result)}
     performance = request.to_performance(terms.settings)
     results = core.envelope(performance, **span)
-    grounds = [outlines.Ground(part.name, one) for part, one in zip(performance.parts, results, strict=True)]
+    grounds = [outlines.NamedGround(part.name, one) for part, one in zip(performance.parts, results, strict=True)]
     answer = PerformanceEnvelope.together(results, request, performance)
     return answer, {"output": lambda form: FORMS[form][1](grounds)}
 

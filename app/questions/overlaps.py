@@ -11,7 +11,7 @@ import core
 from app.questions.figures import InstantQuery
 from app.wire.answers import LEFT_OUT, Pair, Point
 from app.wire.fields import Answer, Coordinate, Length, Margin, Width, Wire, check_limit, measure
-from app.wire.labels import Part, Table, label, separation, value_text, value_word
+from app.wire.labels import Part, TextTable, label, separation, value_text, value_word
 from app.wire.question import Command, Question, Terms
 from core import Engine
 from core.language import Listed, phrase, say
@@ -110,7 +110,7 @@ def _parts(answer: OverlapsAnswer, request: OverlapsRequest | InstantQuery) -> I
     """The pairs, and what the engines say of them."""
     near = say("Pairs within {margin} m of each other", margin=format_number(request.margin))
     heads = (label(name, "m") for name in ("separation", "witness_a", "witness_b"))
-    table = Table(near if request.margin else say("Overlapping pairs"), label("benches"), *heads)
+    table = TextTable(near if request.margin else say("Overlapping pairs"), label("benches"), *heads)
     for one in answer.overlaps:
         witnesses = map(value_text, (one.witness_a, one.witness_b))
         table.add(value_text(one.benches), separation(one.separation), *witnesses)

@@ -28,7 +28,7 @@ from app.grade.contacts import (
 from app.grade.report import DiagnosisAnswer, typed
 from app.grade.words import word
 from app.wire.fields import Answer, Wire
-from app.wire.labels import Heading, Part, Table, value_text
+from app.wire.labels import Heading, Part, TextTable, value_text
 from app.wire.question import Command, Question, Terms
 from core import Dance, Dragon, FirstContact, Spiral, clearance_profile, first_contact, minimum_pitch
 from core import trajectory as trajectory_of
@@ -220,7 +220,7 @@ def _parts(answer: PaperTable, request: Wire) -> Iterator[Part]:
     def words(code: str) -> str:
         return word(f"paper_{code}")
 
-    table = Table(words("title"), *map(words, ("quantity", "paper", "ours", "difference")))
+    table = TextTable(words("title"), *map(words, ("quantity", "paper", "ours", "difference")))
     for one in answer.rows:
         name = f"{one.quantity} [{one.unit}], {one.source}"
         table.add(name, str(one.paper), value_text(one.ours), f"{one.difference:+.6f}")
@@ -230,7 +230,7 @@ def _parts(answer: PaperTable, request: Wire) -> Iterator[Part]:
         yield one.reason
         yield from (f"  {fact.what}: {value_text(fact.value)} {fact.unit}" for fact in one.evidence)
         yield ""
-    others = Table(words("others"), *map(words, ("quantity", "published", "ours", "difference")))
+    others = TextTable(words("others"), *map(words, ("quantity", "published", "ours", "difference")))
     for other in answer.literature:
         difference = f"{other.difference:+.6f}"
         others.add(f"{other.quantity} [{other.unit}]", str(other.published), value_text(other.ours), difference)

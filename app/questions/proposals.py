@@ -14,7 +14,7 @@ from app.wire.dances import DragonFields, VenueFields
 from app.wire.degrees import GeographicOrigin, Place
 from app.wire.fields import Angle, Answer, Margin, OneLine, SpeedLimit, Whole, Wire, measure
 from app.wire.geojson import venue_geometry
-from app.wire.labels import Heading, Part, Table, value_word
+from app.wire.labels import Heading, Part, TextTable, value_word
 from app.wire.paths import Point, path_of
 from app.wire.proposal_cards import ProposalCard, ProposalCards
 from app.wire.question import Command, Output, Question, Terms, Writer
@@ -268,7 +268,7 @@ def _parts(answer: Proposals, request: ProposalsRequest) -> Iterator[Part]:
         return
     counts = request.objective is core.Objective.BENCHES
     has_gates = bool(answer.proposals[0].gates)
-    table = Table(
+    table = TextTable(
         say("Proposals"), say("figure"), *[say("gates")] * has_gates, *[say("benches")] * counts, say("safe stray"),
         say("duration"), say("length"), say("turns"), say("nearest"), say("with stray"), say("highest speed"),
     )  # fmt: skip

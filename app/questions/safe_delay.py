@@ -10,7 +10,7 @@ from pydantic import Field
 import core
 from app.wire.answers import TOTAL_STRAY, Point
 from app.wire.fields import Answer, Margin, Strays, Wire, measure
-from app.wire.labels import Part, Table
+from app.wire.labels import Part, TextTable
 from app.wire.performances import FILE_OF_DANCES, Moment, NumberOrName, PerformanceFields, dragon_of
 from app.wire.question import Command, Question, Terms
 from core.language import phrase, say
@@ -95,7 +95,7 @@ def _parts(answer: SafeDelays, request: Wire) -> Iterator[Part]:
             yield say(title, name=name, **span)
             # Rounded inwards, so that they stay proven.
             lines = [(format_bound(low, 6, up=True), format_bound(high, 6)) for low, high in intervals]
-            yield Table("", say("from [s]"), say("to [s]"), lines=lines)
+            yield TextTable("", say("from [s]"), say("to [s]"), lines=lines)
 
 
 NONE = phrase(

@@ -13,7 +13,7 @@ from app.questions.tolerance import STRAYS_IGNORED
 from app.wire.answers import Columns
 from app.wire.dances import DragonFields
 from app.wire.fields import Answer, Pitch, UniformDragon, Whole, Wire, measure
-from app.wire.labels import Part, Table, label, value_text
+from app.wire.labels import Part, TextTable, label, value_text
 from app.wire.paths import WayToCircle
 from app.wire.question import Command, Question, Terms
 from core import Dragon, InvalidValue, Limit, TooMuchWork
@@ -90,7 +90,7 @@ def tolerance_curve(request: ToleranceCurveQuery | ToleranceCurveRequest, terms:
 def _parts(answer: Columns, request: Wire) -> Iterator[Part]:
     """One row for each pitch."""
     heads = label("pitch", "m"), label("stray", "m"), label("touching", "m"), label("limited_by")
-    table = Table(say("Tolerance to strays"), *heads)
+    table = TextTable(say("Tolerance to strays"), *heads)
     for pitch, stray, touching, limit in zip(*answer.columns.values(), strict=True):
         shown = say("unknown") if touching is None else format_number(touching)
         table.add(format_number(pitch), format_number(stray), shown, value_text(limit))

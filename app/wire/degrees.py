@@ -18,9 +18,9 @@ from app.wire.geojson import (
     SQUARE,
     TREE_REACH,
     Aside,
-    Part,
     Polygon,
     Scale,
+    SentPart,
     Thing,
     asides_in,
     is_rough,
@@ -196,7 +196,7 @@ def _refuse_systems_inside(field: str, part: object) -> None:
             _refuse_systems_inside(f"{field}.{k}", item)
 
 
-def _in_degrees(geometry: Mapping[str, object]) -> list[Part]:
+def _in_degrees(geometry: Mapping[str, object]) -> list[SentPart]:
     """The parts of a venue in degrees. raises: InvalidValue, with a hint if longitude and latitude look swapped"""
     try:
         return parts_in(geometry, DEGREES)
@@ -208,7 +208,7 @@ def _in_degrees(geometry: Mapping[str, object]) -> list[Part]:
         raise error.because(SWAPPED) from error
 
 
-def _kinds(parts: Sequence[Part], are_cut: Sequence[bool]) -> list[Hashable]:
+def _kinds(parts: Sequence[SentPart], are_cut: Sequence[bool]) -> list[Hashable]:
     """What the parts of one area share: those of the square their name, those that are cut too; None for others."""
     return [
         (one.name,) if one.radius is None and (cut or one.name == SQUARE) else None
@@ -216,7 +216,7 @@ def _kinds(parts: Sequence[Part], are_cut: Sequence[bool]) -> list[Hashable]:
     ]
 
 
-def _joined(parts: Sequence[Part], kinds: Sequence[Hashable]) -> list[Part]:
+def _joined(parts: Sequence[SentPart], kinds: Sequence[Hashable]) -> list[SentPart]:
     """The parts in metres, where those of a kind that make one area are that."""
     whole = whole_areas([one.rings for one in parts], kinds)
     return [one._replace(rings=rings) for one, rings in zip(parts, whole, strict=True) if rings is not None]
@@ -255,7 +255,7 @@ def _refuse_degrees(polygons: list[Polygon], longest: float) -> None:
     raise InvalidValue("venue", f"{rule}: {advice}", **values)
 
 
-def _projected(parts: list[Part], asides: list[Aside]) -> Place:
+def _projected(parts: list[SentPart], asides: list[Aside]) -> Place:
     near = parts[0].rings[0][0][0]
     parts = [one._replace(rings=tuple(unwrapped(ring, near) for ring in one.rings)) for one in parts]
     are_cut = [is_cut(one.rings) for one in parts]

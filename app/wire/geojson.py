@@ -72,7 +72,7 @@ class Aside(NamedTuple):
     radius: float | None = None
 
 
-class Part(NamedTuple):
+class SentPart(NamedTuple):
     """A polygon, a tree or a wall of a venue as it was sent.
 
     name: None if it has none; radius: of a tree, or half of the width of a wall [m]; several: True for one of several
@@ -98,7 +98,7 @@ def read_things(geometry: object, scale: Scale = METRES) -> list[Thing]:
     return named(parts_in(geometry, scale))
 
 
-def parts_in(geometry: object, scale: Scale) -> list[Part]:
+def parts_in(geometry: object, scale: Scale) -> list[SentPart]:
     """The same without names for those that have none."""
     polygons = _polygons("venue", geometry)
     whole = [k for k, one in enumerate(polygons) if one[3] is None]
@@ -108,14 +108,14 @@ def parts_in(geometry: object, scale: Scale) -> list[Part]:
         ring for _, _, rings, *_ in polygons if isinstance(rings, list) for ring in rings if isinstance(ring, list)
     )
     parts = [
-        Part(name, _rings(field, rings, scale, radius), radius, several)
+        SentPart(name, _rings(field, rings, scale, radius), radius, several)
         for name, field, rings, radius, several in polygons
     ]
     square = next((k for k in whole if parts[k].name == SQUARE), whole[0])
     return [parts[square], *(one for k, one in enumerate(parts) if k != square)]
 
 
-def named(parts: Sequence[Part]) -> list[Thing]:
+def named(parts: Sequence[SentPart]) -> list[Thing]:
     """The parts of a venue with a name each, the square first; those of a MultiPolygon are numbered."""
     names: list[str] = []
     for k, part in enumerate(parts):

@@ -56,7 +56,7 @@ class Heading(str):
     __slots__ = ()
 
 
-class Table:
+class TextTable:
     """Lines of texts below their heads; without heads, a label and a text in each line."""
 
     def __init__(self, title: str, *heads: str, lines: Iterator[Line] | Sequence[Line] = ()) -> None:
@@ -66,7 +66,7 @@ class Table:
         self.lines.append(texts)
 
 
-Part = Table | Heading | str
+Part = TextTable | Heading | str
 
 
 def label(name: str, unit: str = "") -> str:
@@ -137,7 +137,7 @@ def judged_words(judged: Sequence[int] | Sequence[Sequence[int]], benches: int) 
 
 def fields_of(title: str, answer: BaseModel, request: Any = None) -> Iterator[Part]:
     """An answer as one table. request: as for lines_of()"""
-    yield Table(title, lines=lines_of(answer, request))
+    yield TextTable(title, lines=lines_of(answer, request))
 
 
 def lines_of(answer: BaseModel | Readable, request: Any = None, outer: str = "") -> Iterator[tuple[str, str]]:

@@ -35,7 +35,7 @@ from core.people.fastest import FastestMoment, fastest_moments
 from core.people.meetings import (
     ROWS_MAX,
     STEP,
-    Chain,
+    HandleChain,
     Indices,
     MeetingColumns,
     chain_of,
@@ -419,7 +419,7 @@ def _times(performance: Performance, begin: float, until: float) -> Floats:
     return np.linspace(begin, until, min(ROWS_MAX, int((until - begin) * max(speeds) / STEP) + 2))
 
 
-def _chain_of(performance: Performance) -> tuple[Chain, Indices]:
+def _chain_of(performance: Performance) -> tuple[HandleChain, Indices]:
     """The chain of all dragons, and the number of the first bench of each in it."""
     dragons = [part.dance.dragon for part in performance.parts]
     ends = np.cumsum([dragon.benches + 1 for dragon in dragons])
@@ -432,11 +432,11 @@ def _chain_of(performance: Performance) -> tuple[Chain, Indices]:
         return np.concatenate([one.position for one in results], axis=1)
 
     gaps: Indices = (ends[:-1] - 1).astype(np.intp)
-    return Chain(place, np.concatenate(sizes)[:-1], gaps), np.concatenate([[0], ends[:-1]]).astype(np.intp)
+    return HandleChain(place, np.concatenate(sizes)[:-1], gaps), np.concatenate([[0], ends[:-1]]).astype(np.intp)
 
 
 def _meetings(
-    chain: Chain,
+    chain: HandleChain,
     met: MeetingColumns,
     budget: Budget,
     time_of: Callable[[float], float] = float,

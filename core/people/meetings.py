@@ -70,7 +70,7 @@ Indices = NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True)
-class Chain:
+class HandleChain:
     """All handles of a dragon, or of several one after the other, and the benches between them.
 
     place: handles (R, N + 1, 2) at R travels of the head, or for several dragons at R times; sizes: lengths and widths
@@ -87,13 +87,13 @@ class Chain:
         return max(1, HANDLES_AT_ONCE // (len(self.sizes) + 1))
 
 
-def chain_of(dance: Dance) -> Chain:
+def chain_of(dance: Dance) -> HandleChain:
     """The chain of one dragon. dance: at 1 m/s without passages"""
 
     def place(travels: Floats, budget: Budget) -> Floats:
         return trajectory(dance, travels, budget=budget).position
 
-    return Chain(place, np.stack([dance.dragon.lengths, dance.dragon.widths], axis=-1), _NO_BENCHES)
+    return HandleChain(place, np.stack([dance.dragon.lengths, dance.dragon.widths], axis=-1), _NO_BENCHES)
 
 
 class MeetingColumns(NamedTuple):
@@ -158,7 +158,9 @@ def meetings_between(
     return meetings_in(chain_of(dance), benches, travels, reach, budget)
 
 
-def meetings_in(chain: Chain, benches: Sequence[int], travels: Floats, reach: float, budget: Budget) -> MeetingColumns:
+def meetings_in(
+    chain: HandleChain, benches: Sequence[int], travels: Floats, reach: float, budget: Budget
+) -> MeetingColumns:
     """meetings_between() of the benches of a chain; travels: of the head, or for several dragons times"""
     parts = [MeetingColumns(*_NONE, _NO_NUMBERS)]
     at_once, far = chain.at_once, _far(chain, reach)
@@ -201,7 +203,7 @@ def _nearest(away: Floats, k: int, near: Indices, first: int, far: float) -> _Ne
     return _Nearest(np.full(row.size, k, dtype=np.intp), near[column], row + first + 1, np.sqrt(middle[row, column]))
 
 
-def _in_row(chain: Chain, travel: float, budget: Budget) -> Callable[[Indices, Indices], Floats]:
+def _in_row(chain: HandleChain, travel: float, budget: Budget) -> Callable[[Indices, Indices], Floats]:
     """The gap of two benches of one dragon that is straight [m]."""
     (handles,) = chain.place(np.array([travel]), budget)
     chords = np.hypot(*np.diff(handles, axis=0).T)
@@ -218,7 +220,7 @@ def _in_row(chain: Chain, travel: float, budget: Budget) -> Callable[[Indices, I
 # A pair that comes no nearer than it is in a row cannot count: benches are apart by at least the distance of their
 # middles less half their diagonals.
 def _approaches(
-    chain: Chain,
+    chain: HandleChain,
     travels: Floats,
     nearest: list[_Nearest],
     abreast: list[tuple[Indices, Indices, Floats]],
@@ -266,7 +268,7 @@ def _chosen(met: MeetingColumns, some: Indices) -> MeetingColumns:
 
 
 def _least_gaps(
-    chain: Chain, pair: tuple[Indices, Indices], travel: Floats, ends: tuple[Floats, Floats], budget: Budget
+    chain: HandleChain, pair: tuple[Indices, Indices], travel: Floats, ends: tuple[Floats, Floats], budget: Budget
 ) -> tuple[Floats, Floats]:
     """Travels between two ends at which the gap of each pair is the least of all that are tried, (E,) [m], and by how
     much it is larger at both ends, (E,) [m]."""
@@ -296,7 +298,7 @@ def _least_gaps(
     return travel, at_ends - best
 
 
-def _far(chain: Chain, reach: float) -> float:
+def _far(chain: HandleChain, reach: float) -> float:
     """Distance of two middles beyond which the benches are further apart than the reach [m]."""
     return reach + float(np.hypot(*chain.sizes.T).max())
 
@@ -372,7 +374,7 @@ def _recalled(before: _Before | None, near: Indices) -> tuple[Floats, Floats]:
     return known, when
 
 
-def _abreast(chain: Chain, own: Indices, other: Indices, travels: Floats, budget: Budget) -> Floats:
+def _abreast(chain: HandleChain, own: Indices, other: Indices, travels: Floats, budget: Budget) -> Floats:
     """a of each pair at its own travel (E,) [m]."""
     position, rows = chain.place(travels, budget), np.arange(own.size)
     front, rear = position[rows, own], position[rows, own + 1]
@@ -383,7 +385,7 @@ def _abreast(chain: Chain, own: Indices, other: Indices, travels: Floats, budget
 
 
 # False position of Illinois: the end that stays twice has its value halved, so that the other end comes near, too.
-def _zeros(chain: Chain, crossings: _Crossings, budget: Budget) -> tuple[Indices, Indices, Floats]:
+def _zeros(chain: HandleChain, crossings: _Crossings, budget: Budget) -> tuple[Indices, Indices, Floats]:
     """Own and other bench and the travel of each zero, |a| at most ABREAST there."""
     own, other = crossings.own, crossings.other
     low, high, at_low, at_high = (column.copy() for column in crossings[2:])
@@ -406,7 +408,7 @@ def _zeros(chain: Chain, crossings: _Crossings, budget: Budget) -> tuple[Indices
     return own, other, travel
 
 
-def _met(chain: Chain, zeros: tuple[Indices, Indices, Floats], reach: float, budget: Budget) -> MeetingColumns:
+def _met(chain: HandleChain, zeros: tuple[Indices, Indices, Floats], reach: float, budget: Budget) -> MeetingColumns:
     """The moments that are meetings: within the reach, and with no third bench between the two middles."""
     own, other, travel = zeros
     rows = np.arange(own.size)
@@ -426,7 +428,7 @@ def _met(chain: Chain, zeros: tuple[Indices, Indices, Floats], reach: float, bud
 
 # The segment p + t q, t in [0, 1], meets a rectangle if the intervals of t in which it is between the two long sides
 # and between the two short sides have a common part. p and q are taken in the frame of the rectangle.
-def _hidden(poses: Floats, chain: Chain, own: Indices, other: Indices) -> NDArray[np.bool_]:
+def _hidden(poses: Floats, chain: HandleChain, own: Indices, other: Indices) -> NDArray[np.bool_]:
     """True where a third bench meets the segment between the two middles. poses: (E, n, 3); returns (E,)"""
     rows, sizes = np.arange(own.size), chain.sizes
     mine, way = poses[rows, own, :2], poses[rows, other, :2] - poses[rows, own, :2]

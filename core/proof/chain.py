@@ -27,7 +27,7 @@ POSES_KEPT = 16
 P = TypeVar("P", bound=Benches)
 
 
-class Follower(ABC, Generic[P]):
+class DragonOnPath(ABC, Generic[P]):
     """A dragon on some path, and the margin that its benches keep [m]. A place falls as the dance goes on.
 
     repeats_from: u of 6., from which one sweep covers all, at most the last bench that has a pair
@@ -58,7 +58,7 @@ class Follower(ABC, Generic[P]):
         return self._poses[bench, place]
 
 
-class Chain(Follower["Pose"]):
+class Chain(DragonOnPath["Pose"]):
     """A dragon on a spiral: growth b [m/rad], start [rad]. Its places are theta [rad], always above the floor.
 
     stray: how far every hole may be from its place [m]; grounds: of its benches, none without a stray

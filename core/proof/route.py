@@ -11,7 +11,7 @@ from itertools import pairwise
 from flint import acb, arb
 
 from core.dragon import Dragon
-from core.proof.chain import GUESS_RADIUS, Follower, coil_arc, coil_slope, coil_theta, delta, newton
+from core.proof.chain import GUESS_RADIUS, DragonOnPath, coil_arc, coil_slope, coil_theta, delta, newton
 from core.proof.pairs import Benches, Unproven, above
 from core.quantities import Quantity, format_number
 
@@ -226,7 +226,7 @@ class BallPath:
         return newton(t, around, abs(piece.point(t) - point) ** 2 - chord**2, slope)
 
 
-class RouteChain(Follower["RoutePose"]):
+class RouteChain(DragonOnPath["RoutePose"]):
     """A dragon on a route. Its places are z = -s [m]."""
 
     floor = -math.inf

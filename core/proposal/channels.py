@@ -37,7 +37,7 @@ BENCH_WORK = 60.0
 
 
 @dataclass(frozen=True)
-class Stretch:
+class StraightWay:
     """A straight way. first, last: poses at its ends; into, out: ways before its first pose at which it is entered, and
     behind its last one at which it is left, each with a rank, the most convenient one 0 [m]"""
 
@@ -95,8 +95,8 @@ class ChannelLegFinder(LegFinder):
         A chain is looked at in the order of a lower bound of its length, that of straight ways to the next stretch, and
         comes back with its own length once the leg to this stretch is found.
         """
-        stretches = [Stretch(begin, begin, out=self._left(begin)), *self._between(begin, end)]
-        stretches.append(Stretch(end, end, into=self._left(_back(end))))
+        stretches = [StraightWay(begin, begin, out=self._left(begin)), *self._between(begin, end)]
+        stretches.append(StraightWay(end, end, into=self._left(_back(end))))
         goal, reached, looked = len(stretches) - 1, {0: 0.0}, 0
         queue: list[tuple[float, int, int, int, list[Step]]] = []
         count = 0
@@ -129,7 +129,7 @@ class ChannelLegFinder(LegFinder):
                 heappush(queue, (round(length_of(whole), 6), order, -1, j, whole))
         return None
 
-    def _to_next(self, one: Stretch, other: Stretch) -> list[Step] | None:
+    def _to_next(self, one: StraightWay, other: StraightWay) -> list[Step] | None:
         """The leg from the end of a stretch to the beginning of the next one, the easiest bends first and a gentle one,
         which takes the most ground, last."""
         pairs = sorted((a + b, out + into, out, into) for a, out in one.out for b, into in other.into)
@@ -145,13 +145,13 @@ class ChannelLegFinder(LegFinder):
                         return steps
         return None
 
-    def _between(self, begin: Pose, end: Pose) -> list[Stretch]:
+    def _between(self, begin: Pose, end: Pose) -> list[StraightWay]:
         """The channels that are nearest to the way between two poses."""
 
         stretches = []
         for entry, length in sorted(self.channels, key=partial(way_through, begin, end))[:CHANNELS_NEAR]:
             last = moved(entry, (length, 0.0))
-            stretches.append(Stretch(entry, last, self._left(_back(entry)), self._left(last)))
+            stretches.append(StraightWay(entry, last, self._left(_back(entry)), self._left(last)))
         return stretches
 
     def _left(self, pose: Pose) -> tuple[tuple[int, float], ...]:

@@ -68,7 +68,7 @@ class PerformanceExhibit(WithArrays):
 
 @dataclass(frozen=True)
 class Between:
-    """The ground that benches of two dragons may cover: a Ground of core/tolerance/safe.py."""
+    """The ground that benches of two dragons may cover: a StrayGround of core/tolerance/safe.py."""
 
     performance: Performance
     span: tuple[float, float]

@@ -151,7 +151,7 @@ def _safe_stray(field: Field, most: float) -> SafeStray:
     return SafeStray(0.0, nominal, touch.steps, touches=True)
 
 
-class Ground(Protocol[G_co]):
+class StrayGround(Protocol[G_co]):
     """The ground that benches may cover if they stray, over a span of moments (core/contact/gaps.py).
 
     straying: number of two that meet which stray [1]; gain: gap, relative to the stray, from which on no two grounds
@@ -173,7 +173,7 @@ class Ground(Protocol[G_co]):
         """The gaps with a stray, and a march from a moment on; REACHED: no grounds meet, which is proven."""
 
 
-def sampled_ground(ground: Ground[Gaps], stray: float, gaps_of: Callable[[float], Gaps] | None = None) -> Dip:
+def sampled_ground(ground: StrayGround[Gaps], stray: float, gaps_of: Callable[[float], Gaps] | None = None) -> Dip:
     """The least gap of the samples at which some ground can reach another. gaps_of: default: ground.gaps"""
     gaps = (gaps_of or ground.gaps)(stray)
     return sampled_least(gaps, sampled_again(gaps, ground.in_place, SAMPLED_BEYOND * ground.gain * stray))
@@ -183,7 +183,7 @@ def sampled_ground(ground: Ground[Gaps], stray: float, gaps_of: Callable[[float]
 # State:  `stray` and `limiting`, the least stray known at which grounds graze, and where; `proven_to`, up to which all
 #         is clear with a larger one.
 # Output: a stray slightly below, proven to the end.
-def safe_stray(ground: Ground[Gaps], most: float, nominal: Dip) -> SafeStray:
+def safe_stray(ground: StrayGround[Gaps], most: float, nominal: Dip) -> SafeStray:
     """The largest stray up to `most` that is safe on a ground, slightly less than its samples and marches show."""
     # Two parallel benches that both stray towards each other meet if the stray is half their clearance.
     first = min(most, nominal.gap / ground.straying)

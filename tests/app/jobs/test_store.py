@@ -14,7 +14,7 @@ import pytest
 
 from app.jobs import store as stores
 from app.jobs.job import GAVE_WAY, ID_PATTERN, Full, FullForClient, FullOfBytes, JobState, KeptByClient
-from app.jobs.room import DAY, FRESH, Room, Row
+from app.jobs.room import DAY, FRESH, KeptJob, Room
 from app.jobs.store import DEATHS_MAX, EVENTS_KEPT, Store
 from app.settings import Settings
 
@@ -267,7 +267,7 @@ def test_only_who_has_at_least_as_much_makes_room_and_a_refusal_says_when_there_
     for k in range(chance.randrange(1, chance.choice([5, 30]))):
         state = chance.choice(["successful", "successful", "dismissed", "failed"])
         finished = now - chance.choice([10.0, 2.0]) * FRESH * chance.random()
-        rows.append(Row(str(k), "turn", chance.choice(names), state, 0.0, finished, 0.0, None, 1.0, 1))
+        rows.append(KeptJob(str(k), "turn", chance.choice(names), state, 0.0, finished, 0.0, None, 1.0, 1))
     rows.sort(key=lambda row: row.finished)
     limits = Settings(jobs_max=len(rows), jobs_client_kept_max=len(rows))
     asking = chance.choice(["asking", names[0]])

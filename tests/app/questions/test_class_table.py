@@ -7,7 +7,7 @@ from dataclasses import replace
 import openpyxl
 import pytest
 
-from app.grade.class_table import Row, alike, points_of, rubric_of, rubric_text, team_points
+from app.grade.class_table import ClassRow, alike, points_of, rubric_of, rubric_text, team_points
 from app.grade.judged import Rating
 from tests.support.asking import assert_problem
 
@@ -19,7 +19,7 @@ CLASS = [RIGHT, ROUNDED, HALF, PICTURE]
 
 
 def row(team, digest, *, missing=0, cells=10):
-    return Row(team, "result1.xlsx", "result1", Rating.RIGHT, cells, cells - missing, missing, digest)
+    return ClassRow(team, "result1.xlsx", "result1", Rating.RIGHT, cells, cells - missing, missing, digest)
 
 
 def test_points_follow_the_rubric_and_teams_are_ordered_by_them(client):
@@ -38,7 +38,7 @@ def test_points_follow_the_rubric_and_teams_are_ordered_by_them(client):
 def test_points_fall_by_what_is_wrong_and_by_no_more():
     """A result1 of four decimals, and the same one with one slip; and no share for what is near by chance."""
     cells = 202_272
-    rounded = Row("Red", "a", "result1", Rating.ROUNDED, cells, 2_000, 0, rounded=cells - 2_000)
+    rounded = ClassRow("Red", "a", "result1", Rating.ROUNDED, cells, 2_000, 0, rounded=cells - 2_000)
     slip = replace(rounded, verdict=Rating.WRONG, rounded=cells - 2_001)
     half = replace(rounded, verdict=Rating.WRONG, rounded=cells // 2 - 2_000)
     assert [points_of(one, rubric_of("")) for one in (rounded, slip, half)] == [36.0, 36.0, 18.0]
@@ -78,7 +78,7 @@ def test_a_rubric_reads_as_it_is_written():
 
 
 def test_of_two_files_for_one_workbook_the_better_counts():
-    worse = Row("Red", "old.xlsx", "result1", Rating.WRONG, 10, 1, 0)
+    worse = ClassRow("Red", "old.xlsx", "result1", Rating.WRONG, 10, 1, 0)
     assert team_points([worse, row("Red", ""), worse], rubric_of("")) == [("Red", 40.0)]
 
 

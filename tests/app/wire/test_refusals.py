@@ -465,7 +465,7 @@ MANY = {
     f'check SHORT {{"venue": {{"a": {"[" * 900}{"]" * 900}}}}}': "/venue 20",
     f'check SHORT {{"venue": {"COLLECTION: [" * 9}{{}}{"]}" * 9}}}': "/venue 8",
     f'proposals WISH {{"venue": {{"type": "Polygon", "coordinates": [[{"[0, 0], " * 50_000}[0, 0]]]}}}}': (
-        "/venue 2000 50000"
+        "/venue 5000 50000"
     ),
 }
 # Paths, each refused by every call that takes one, at a pointer into the path.
