@@ -216,7 +216,6 @@ export function showShare(button, { status, progress }) {
   button.classList.toggle("going", going);
   button.style.setProperty("--share", `${progress}%`);
   button.querySelector(".share").textContent = going ? ` ${progress} %` : "";
-
 }
 
 const resultOf = ({ links }) => links.find(({ rel }) => rel === "results") ?? {};

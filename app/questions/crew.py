@@ -22,7 +22,7 @@ from app.wire.answers import SENTENCES
 from app.wire.clocks import DAY, checked_clock
 from app.wire.dances import clock_of, starting
 from app.wire.fields import AS_WHOLE, Answer, Coordinate, Instant, OneLine, PaperSize, Wire, measure
-from app.wire.labels import Part, TextTable
+from app.wire.labels import Part, TextTable, heads_of
 from app.wire.messages import checked
 from app.wire.numbers import numbers_of
 from app.wire.question import JSON, Command, ListOption, Question, Terms
@@ -369,7 +369,7 @@ def _parts(answer: Crew, request: CrewRequest) -> Iterator[Part]:
     """What lacks, then each person, and who is where."""
     title, *lacks = answer.sentences
     yield from lacks
-    heads = say("person"), say("benches"), say("time [s]"), say("way [m]"), say("longest [s]")
+    heads = [say("person"), say("benches"), *heads_of(Carrier, "time", "way", "longest")]
     table = TextTable(title, *heads)
     for one in answer.carriers:
         benches = str(Listed(dict.fromkeys(spell.bench for spell in one.spells))) or say("none")
@@ -377,7 +377,7 @@ def _parts(answer: Crew, request: CrewRequest) -> Iterator[Part]:
     yield table
     if roll := answer.at:
         time = roll.clock or f"{roll.time:g} s"
-        heads = say("bench"), say("people"), "x [m]", "y [m]", say("mark [m]")
+        heads = [say("bench"), say("people"), *heads_of(BenchRoll, "x", "y", "mark")]
         table = TextTable(say("Who is where at {time}", time=time), *heads)
         for place in roll.benches:
             name = f"{place.bench} {place.name}".rstrip()

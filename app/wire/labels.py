@@ -75,6 +75,12 @@ def label(name: str, unit: str = "") -> str:
     return f"{words} [{unit}]" if unit else words
 
 
+def heads_of(kind: Any, *names: str) -> list[str]:
+    """Labels with units of some fields of an answer, as heads of columns."""
+    known = typed_fields(kind)
+    return [label(name, known[name][1]) for name in names]
+
+
 def kinds_in(kinds: Iterable[Any]) -> list[Any]:
     """These types of answers, and the types of all that stands in them and is shown."""
     found = list(kinds)
