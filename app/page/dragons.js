@@ -244,23 +244,27 @@ export class Dragons {
     } else if (delay > least) this.state.set({ dances: this.#textOf(next, this.#active) });
   }
 
-  /** Let the chosen dragon, which has a new path, come in behind those that begin in its street, and wait until they let it pass. */
-  waits() {
+  /** Let the chosen dragon, which has a new path, come in behind who begins at its place; it waits until they let it pass, or those behind it wait. */
+  async waits() {
     const [records, k] = [this.#whole(), this.#active];
     const values = records.map((record) => this.#valuesOf(record));
     const own = this.#numbersOf(values[k]);
     let { drawing } = values[k];
     const others = [...records.keys()].filter((at) => at !== k && isDrawn(values[at]));
-    for (const at of others) {
-      if (!isFurther(values[at].drawing, values[k].drawing, true)) continue;
-      const row = queued(drawing, this.#numbersOf(values[at]), own);
-      if (row) drawing = { ...row.behind, things: row.things };
+    const rowOf = (at, one = drawing) => queued(one, this.#numbersOf(values[at]), own);
+    const begins = (at, one) => isFurther(values[at].drawing, one, true);
+    // Who stands further out leaves this place free, and follows.
+    for (let at = 0; at !== undefined; ) {
+      at = others.find((one) => rowOf(one) && begins(one, drawing) && !begins(one, rowOf(one).behind));
+      if (at !== undefined) drawing = { ...rowOf(at).behind, things: rowOf(at).things };
     }
-    // Whoever ends in its last street goes on, so that it has room there.
-    const ahead = (at) => (isFurther(values[at].drawing, values[k].drawing, false) ? queued(values[at].drawing, this.#numbersOf(values[at]), own)?.ahead : null);
-    const next = records.map((record, at) => (others.includes(at) && ahead(at) ? on(record, ahead(at)) : record));
+    const behind = others.filter((at) => begins(at, drawing));
+    // Whoever is ahead in the street in which both end goes on, so that the other one has room there.
+    for (const at of behind) if (isFurther(drawing, values[at].drawing, false) && rowOf(at)) drawing = { ...rowOf(at).ahead, things: rowOf(at).things };
+    const isAhead = (at) => others.includes(at) && !behind.includes(at) && isFurther(values[at].drawing, drawing, false);
+    const next = records.map((record, at) => (isAhead(at) && rowOf(at, values[at].drawing) ? on(record, rowOf(at, values[at].drawing).ahead) : record));
     if (drawing !== values[k].drawing) this.#take(next, k, { drawing, view: null });
-    return this.#wait(k, 0, true);
+    for (const at of behind.length ? behind : [k]) await this.#wait(at, 0, true);
   }
 
   /** Say that no delay keeps the last dragon apart, or why none was found, as long as they and their square are these. */

@@ -62,7 +62,7 @@ export function queued(drawing, numbers, own) {
   if (!ahead || !behind) return null;
   const things = withStreet({ ...drawing, things: withStreet(drawing, true, length) }, false, length);
   // Who follows begins as far behind the tail of the one ahead, and may be the longer one.
-  return { ahead, behind: { ...behind, begin: drawing.begin + most - streetLength(numbers) }, things };
+  return { ahead, behind: { ...behind, begin: Number((drawing.begin + most - streetLength(numbers)).toFixed(4)) }, things };
 }
 
 /** True if a drawn path ends, or begins, where another one does, or further out in the same street. isFirst: it begins */

@@ -126,6 +126,8 @@ class EncounterMarch:
                 return Ended.STUCK
             end = stop if self.time + self.length >= stop else self.time + self.length
             self.steps += 1
+            # A step that ends at a break says nothing of the next one, however short it is.
+            tried = self.length if end == stop else end - self.time
             self.length = end - self.time
             if not stage.step(self.time, end, speeds) or ensemble.least == NO_BOUND:
                 self.length, self.aim = 0.5 * self.length, None
@@ -143,7 +145,7 @@ class EncounterMarch:
                 return Ended.TOUCHED
             self.aim = None
             self._note()
-            self.length = min(TRUSTED * width, 2.0 * self.length)
+            self.length = min(TRUSTED * width, 2.0 * tried)
         return Ended.REACHED
 
     def _stand_still(self, speeds: list[float]) -> None:

@@ -58,6 +58,17 @@ def test_a_second_dragon_comes_in_behind_the_first_or_the_page_says_what_can_be_
     person.sees({"#dragons-apart": "另画路线"})
 
 
+def test_the_first_of_two_dragons_takes_a_proposed_dance_and_stays_in_front(open_page):
+    square = "a.square..-12,-10_12,-10_12,10_-12,10~g.in.,in.-12,1~g.out.,out.12,-2"
+    person = open_page(f"?door=village&lang=en&path=route&benches=8&things={square}")
+    person.presses("#propose").sees({"#cards button": True}).presses("#cards button").settles()
+    person.presses("#several").sees({"#judgement": "Can be danced", "#dragons li": 2}).settles()
+    person.presses("#propose").sees({"#cards button": True}).presses("#cards button")
+    person.sees({"#status": "blue need not wait", "#judgement": "Can be danced"}).settles()
+    red, blue = (one["path"]["pieces"][0]["start"][0] for one in file_of(person)["dances"])
+    assert blue < red - 14
+
+
 def test_dragons_to_begin_with_leave_what_a_person_has_drawn_and_who_waits_is_let_pass(open_page, server):
     person = open_page(f"?door=all&path=route&benches=3&{urlencode(OWN)}").presses("#several").settles()
     for preset in ("parade", "streets"):

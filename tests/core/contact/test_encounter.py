@@ -10,6 +10,7 @@ from core import (
     Arc,
     Dance,
     Dragon,
+    Line,
     Outcome,
     Part,
     Passage,
@@ -102,6 +103,13 @@ def test_a_margin_is_met_earlier_and_a_stray_counts_as_ground():
     assert 0.04 < touch.time - stray.time < 0.05
     assert_near(stray.gap, touch.time - stray.time, SAME_TIME)
     assert encounter_check(stray).agree
+
+
+def test_a_dragon_that_begins_a_rounding_later_than_another_one_is_judged_like_it():
+    starts = (14.411, math.nextafter(14.411, 15.0))
+    lanes = [Route([Line((-40.0, y), (40.0, y))], start) for y, start in zip((0.0, 3.0), starts, strict=True)]
+    met = first_encounter(Performance([Part(Dance(Dragon(8), lane)) for lane in lanes]))
+    assert met.outcome is Outcome.CLEAR
 
 
 def test_two_dragons_that_meet_less_than_half_a_second_before_they_fold_are_judged_rightly():
