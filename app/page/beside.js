@@ -8,6 +8,9 @@ import { phrase, say } from "./text.js";
 /** Distance from the thing, and from the edge of the picture; width of a picture beside whose things there is room [px]. */
 const [ASIDE, EDGE, WIDE] = [14, 6, 560];
 
+/** Fingers need the picture around the thing too, for the next one. */
+const hasFingers = matchMedia("(pointer: coarse)");
+
 /** What brings several things into line. @type {Phrases} */
 export const ALIGNS = { row: "In a row", column: "In a column", gaps: "Equal gaps" };
 
@@ -73,10 +76,10 @@ export class Beside {
     this.size.textContent = thing.points.length > 1 ? lengths.filter((one) => one !== null).map((one) => `${Number(one.toFixed(2))} m`).join(" · ") : "";
   }
 
-  /** In a narrow window the numbers stand below the picture, which keeps its size, so that nothing moves under a finger. */
+  /** In a narrow window, and for fingers, the numbers stand below the picture, which keeps its size, so that nothing moves under a finger. */
   #makeRoom(thing) {
     const stage = $("#stage");
-    const isBelow = Boolean(thing) && stage.offsetWidth < WIDE;
+    const isBelow = Boolean(thing) && (stage.offsetWidth < WIDE || hasFingers.matches);
     if (isBelow === this.box.classList.contains("below")) return;
     stage.style.flex = isBelow ? `0 0 ${stage.offsetHeight}px` : "";
     this.box.classList.toggle("below", isBelow);

@@ -59,6 +59,10 @@ export class Dance {
   /** Corners of a square with streets, or null; and whether the streets are shown too. */
   #yard = null;
   #beyond = false;
+  /** Layers that are hidden: things, photo, measures, marks, dragons. @type {Set<string>} */
+  hidden = new Set();
+  /** Where names of things are drawn: {k: number of the thing, left, bottom, width}. @type {{ k: number, left: number, bottom: number, width: number }[]} [px] */
+  labels = [];
   /** Paths of several dragons: {x, y, line, colour} */
   #ways = [];
   #bounds = null;
@@ -124,7 +128,7 @@ export class Dance {
     for (const layer of this.names) layer(pen, colours);
     // On a drawn path the dragon alone fades: what is drawn is as it is.
     pen.context.globalAlpha = this.scene.faded && this.drawn ? FADED : 1;
-    if (pose) this.#drawDragon(pen);
+    if (pose && !this.hidden.has("dragons")) this.#drawDragon(pen);
     pen.context.globalAlpha = 1;
     for (const layer of this.above) layer(pen, colours);
   }

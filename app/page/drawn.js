@@ -18,6 +18,7 @@ import { announceStep } from "./overlays.js";
 import { PRESETS, PRESET_NAMES, shownAt } from "./presets.js";
 import { Propose } from "./propose.js";
 import { RouteForm } from "./route.js";
+import { addLayers } from "./shown.js";
 import { phrase, say } from "./text.js";
 import { layers } from "./venue.js";
 
@@ -68,7 +69,8 @@ export class Drawn {
     this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point, ACROSS));
     this.#invite();
     const { below, names, above } = layers(dance, () => this.#visible());
-    dance.below.push((pen) => this.#isRoute && this.photo.draw(pen), below);
+    this.layers = addLayers(dance, draw);
+    dance.below.push((pen) => this.#isRoute && !dance.hidden.has("photo") && this.photo.draw(pen), below);
     dance.names.push(names);
     dance.above.push(above, () => this.editor.place(), () => this.beside.place());
   }
@@ -155,6 +157,7 @@ export class Drawn {
     $("#route").hidden = !drawn;
     $("#judgement").hidden = !drawn && !this.state.get("dances");
     $("#save").disabled = this.#isEmpty && !points.length && !drawing.things.length;
+    this.layers.show(drawn);
     this.editor.show();
     this.beside.show();
     this.photo.show();

@@ -3,14 +3,14 @@
 import { figured, inserted, isFigure, left, moved, placesOf, pointsOf, shiftedAll, withPoints } from "./changes.js";
 import { Chosen } from "./chosen.js";
 import { LANE_RADIUS, THINGS, freeName, isLine, place, yardOf } from "./drawing.js";
-import { $, $$, make, onClick } from "./elements.js";
+import { $, $$, SMALL_TYPE, inType, make, onClick } from "./elements.js";
 import { Grips } from "./grips.js";
 import { helpOf } from "./helps.js";
 import { announce } from "./overlays.js";
 import { crossesItself, onBorder, rectangle } from "./square.js";
 import { say } from "./text.js";
 import { Stroke } from "./stroke.js";
-import { FINE_STEP, KEYS, STEP, decimetres, nearestLeg, squared, thingUnder, thingsWithin } from "./touch.js";
+import { FINE_STEP, KEYS, STEP, decimetres, nameUnder, nearestLeg, squared, thingUnder, thingsWithin } from "./touch.js";
 
 /** Largest movement of a press that is not a drag [px]; largest distance from the path, an edge or a thing of a tap that means it [px]. */
 const [TRAVEL, ON_PATH] = [3, 16];
@@ -273,9 +273,10 @@ export class Editor extends Chosen {
   }
 
   /** The thing at a place of the picture [px]. Gates are drawn on the border of the square, and paths and lanes across it. */
-  #under(px, py) {
-    const kinds = ["path", "gate", "lane"].includes(this.tool) ? THINGS_INSIDE : undefined;
-    return thingUnder(this.drawing.things, this.dance.view, [px, py], kinds);
+  #under(px, py, isInside = ["path", "gate", "lane"].includes(this.tool)) {
+    const { hidden, labels, view } = this.dance;
+    const kinds = ["area", ...THINGS_INSIDE].filter((kind) => (kind === "area" ? !isInside : !hidden.has("things")));
+    return thingUnder(this.drawing.things, view, [px, py], kinds) ?? nameUnder(labels, [px, py], inType(SMALL_TYPE));
   }
 
   /** Take the point nearest to the pointer, because buttons of near points overlap. */
@@ -423,7 +424,7 @@ export class Editor extends Chosen {
   #tap(px, py) {
     if (!this.isRoute) return false;
     if (!this.active) {
-      const item = thingUnder(this.drawing.things, this.dance.view, [px, py], THINGS_INSIDE);
+      const item = this.#under(px, py, true);
       if (item === null) return false;
       this.choose(item);
       return true;

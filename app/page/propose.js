@@ -152,8 +152,8 @@ export class Propose {
       one.addEventListener("input", () => (one.typed = true));
       one.addEventListener("keydown", ({ key }) => key === "Enter" && (one === diameter ? this.#draw(circle, [diameter]) : this.#drawShape()));
     }
-    // Where the dragon is typed in, a phone has no room for the tools and for the numbers of a thing.
-    box.addEventListener("focusin", ({ target }) => editor.active && this.dragonLine.compareDocumentPosition(target) & (Node.DOCUMENT_POSITION_FOLLOWING | Node.DOCUMENT_POSITION_CONTAINED_BY) && editor.turn(false));
+    // Where the dragon is typed in, a phone has no room for the tools and for the numbers of a thing. A button would move away under the finger.
+    box.addEventListener("focusin", ({ target }) => editor.active && target.matches("input, select") && this.dragonLine.compareDocumentPosition(target) & (Node.DOCUMENT_POSITION_FOLLOWING | Node.DOCUMENT_POSITION_CONTAINED_BY) && editor.turn(false));
     state.listen((names) => [...DRAGON, ...WHEN, "csv", "margin", "hole", "pin", "drawing", "path", "door"].some((name) => names.has(name)) && this.show());
   }
 
@@ -242,6 +242,7 @@ export class Propose {
     if (!yardOf(this.#drawing).length) return this.#tell(() => say("First say how large your square is."));
     const { by } = this.#howLong;
     if (by) return by.focus();
+    this.editor.turn(false);
     const request = this.#request();
     const search = { began: performance.now(), share: 0, job: null, end: new AbortController() };
     this.note = null;

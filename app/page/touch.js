@@ -41,6 +41,9 @@ export function thingUnder(things, view, place, kinds = KINDS) {
   return best;
 }
 
+/** The number of the thing whose name is drawn at a place; null without one. labels: of the picture; high: of a line of text [px] */
+export const nameUnder = (labels, [px, py], high) => labels.find(({ left, bottom, width }) => px >= left && px <= left + width && py <= bottom && py >= bottom - high)?.k ?? null;
+
 /** The numbers of the things that lie in a rectangle between two places. */
 export function thingsWithin(things, view, [ax, ay], [bx, by]) {
   const isIn = ([x, y]) => (x - ax) * (x - bx) <= 0 && (y - ay) * (y - by) <= 0;

@@ -175,23 +175,30 @@ function labelPlace({ kind, points }) {
 
 /** The layers of a drawn dance. get(): {drawing, editing, selected, chosen, measured, held, failure, course, benches}, or null in another kind of dance */
 export function layers(dance, get) {
+  const isShown = ({ kind }) => kind === "area" || !dance.hidden.has("things");
   const below = (pen, colours) => {
     const drawn = get();
     if (!drawn) return;
     const { things } = drawn.drawing;
     const order = [...things.keys()].sort((a, b) => Number(things[b].kind === "area") - Number(things[a].kind === "area"));
-    for (const k of order) if (isWhole(things[k]) && things[k].kind !== "gate") drawThing(pen, colours, things[k]);
+    for (const k of order) if (isWhole(things[k]) && things[k].kind !== "gate" && isShown(things[k])) drawThing(pen, colours, things[k]);
+    if (dance.hidden.has("marks")) return;
     for (const { kind, points } of drawn.course?.breaches ?? []) pen.stroke(trace(points, new Path2D(), false), colours[BREACHES[kind]], BEND_WIDTH);
     for (const bend of drawn.course?.bends ?? []) pen.stroke(trace(bend.points, new Path2D(), false), colours.head, BEND_WIDTH);
   };
   const name = (pen, colours, { drawing, editing, chosen, failure }, names) => {
     const isMeantOne = (k) => chosen.includes(k) || failure?.area === drawing.things[k].name;
-    const order = [...drawing.things.keys()].sort((a, b) => Number(isMeantOne(b)) - Number(isMeantOne(a)) || sizeOf(drawing.things[b]) - sizeOf(drawing.things[a]));
+    dance.labels = [];
+    const order = [...drawing.things.keys()].filter((k) => isShown(drawing.things[k])).sort((a, b) => Number(isMeantOne(b)) - Number(isMeantOne(a)) || sizeOf(drawing.things[b]) - sizeOf(drawing.things[a]));
     for (const k of order) {
       const [thing, isMeant] = [drawing.things[k], isMeantOne(k)];
       const colour = isMeant ? colours.pick : colours.text;
       // The square itself is known by its border.
-      if (thing.points.length && (editing || isMeant || thing.kind !== "area")) label(pen, dance.view, thing.name, labelPlace(thing), colour, colours, names);
+      if (!thing.points.length || !(editing || isMeant || thing.kind !== "area")) continue;
+      const count = names.length;
+      label(pen, dance.view, thing.name, labelPlace(thing), colour, colours, names);
+      // A touch of the square's name means the ground there.
+      if (names.length > count && thing.kind !== "area") dance.labels.push({ k, left: names[count][0], bottom: names[count][1], width: names[count][2] });
     }
   };
   // The dragon passes over the names, but what is edited can be read everywhere.
@@ -206,11 +213,12 @@ export function layers(dance, get) {
     if (!drawn) return;
     const { drawing, selected, chosen, failure } = drawn;
     const names = [...pen.names];
-    if (yardOf(drawing).length) for (const thing of drawing.things) if (thing.kind === "gate") drawGate(pen, colours, drawing, thing);
+    if (yardOf(drawing).length && !dance.hidden.has("things")) for (const thing of drawing.things) if (thing.kind === "gate") drawGate(pen, colours, drawing, thing);
     const measured = drawing.things[selected];
-    if (measured?.points.length > 1 && chosen.length < 2) drawMeasures(pen, dance.view, colours, measured, drawn.held, names);
-    for (const point of drawn.measured) pen.stroke(pen.circle(...point, 4), colours.pick, 2);
-    if (drawn.measured.length === 2) {
+    const isMeasured = !dance.hidden.has("measures");
+    if (isMeasured && measured?.points.length > 1 && chosen.length < 2) drawMeasures(pen, dance.view, colours, measured, drawn.held, names);
+    if (isMeasured) for (const point of drawn.measured) pen.stroke(pen.circle(...point, 4), colours.pick, 2);
+    if (isMeasured && drawn.measured.length === 2) {
       const [[ax, ay], [bx, by]] = drawn.measured;
       pen.stroke(trace(drawn.measured, new Path2D(), false), colours.pick, 2);
       label(pen, dance.view, `${Math.hypot(bx - ax, by - ay).toFixed(2)} m`, [(ax + bx) / 2, (ay + by) / 2], colours.pick, colours, names);
@@ -220,6 +228,7 @@ export function layers(dance, get) {
       const isMeant = failure?.area === thing.name || (chosen.length > 1 && chosen.includes(k));
       if (isMeant && isWhole(thing) && thing.kind !== "gate") pen.stroke(outlineOf(thing), colours.pick, FAULT_WIDTH);
     });
+    if (dance.hidden.has("marks")) return;
     for (const { points, ...bend } of drawn.course?.bends ?? []) {
       const middle = points[Math.floor(points.length / 2)];
       pen.stroke(pen.circle(...middle, RING), colours.head, 3);

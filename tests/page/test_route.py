@@ -252,10 +252,15 @@ def test_a_figure_is_moved_sized_turned_and_mirrored_as_a_whole_until_it_is_free
     canvas = person.box("#canvas")
     person.drags(".grip.turn", 40, 0).presses("#mirror").sees(YES).settles()
     assert ",-3.14159265" in person.address()["walk"]
+    # Its numbers are typed too.
+    person.types({"#figure [data-label^='Largest radius']": "9", "#figure [data-label$='x [m]']": "0,5"}, "Tab")
+    person.holds({"#figure [data-label$='x [m]']": "0.5"}).types({"#figure [data-label^='Direction']": "90"}).settles()
+    start, _, bend, *_ = person.address()["walk"].split("_")
+    assert (start.split(",")[2], bend.split(",")[0]) == ("1.570796327", "9")
     # A tap on free ground breaks nothing.
     person.page.mouse.click(canvas["x"] + 60, canvas["y"] + canvas["height"] - 60)
     person.sees({"#status": "This path is a figure"}).strikes("Escape")
-    for _ in range(4):
+    for _ in range(7):
         person.presses("#undo")
     assert person.settles().address()["walk"] == before
     # Four corners make a ring; all of its laps go with a corner that is dragged.
@@ -266,6 +271,23 @@ def test_a_figure_is_moved_sized_turned_and_mirrored_as_a_whole_until_it_is_free
     assert bent.count(bent[1]) == 3
     person.strikes("Delete").sees({".knot:visible": 6})
     person.presses("#undo", "#undo", "#undo").sees({"#figure": True, ".knot": 0})
+
+
+def test_a_touch_of_a_name_takes_its_thing_and_layers_are_hidden_and_shown_again(open_page):
+    person = open_page(f"{S_CURVE}&things=c.elm.1.10,8&view=0,10,10", **PHONE).sees({"#verdict": True})
+    box = person.presses("#edit").settles().box("#canvas")
+    x, y = box["x"] + 0.5 * box["width"] + 100, box["y"] + 0.5 * box["height"] + 20
+    person.page.touchscreen.tap(x + 24, y - 14)
+    person.holds({"#beside input": "elm"}).presses("#beside button:has-text('✓')").settles()
+    assert person.findings() == []
+    tree = person.coloured("thing")
+    person.presses("#layers").sees({"#shown": ["Dragons", "Photo or plan"]}).presses("#shown [name=things]")
+    person.strikes("Escape").settles()
+    assert person.coloured("thing") == 0 < tree
+    # What is hidden is not touched: there the path goes on.
+    person.page.touchscreen.tap(x, y)
+    person.sees({"#beside": False}).presses("#undo", "#layers", "#shown [name=things]").strikes("Escape").settles()
+    assert person.coloured("thing") == tree
 
 
 def test_several_things_are_chosen_moved_brought_into_line_copied_and_removed_together(open_page):

@@ -1,0 +1,25 @@
+/** Layers of the picture that a person hides and shows again. */
+
+import { $, button, hide, make } from "./elements.js";
+import { phrase } from "./text.js";
+
+/** Layers by their names in `dance.hidden`. @type {Phrases} */
+const LAYERS = { things: "Things in the square", photo: "Photo or plan", measures: "Measures", marks: "Marks of what is wrong", dragons: "Dragons" };
+
+/** Add the button of the layers beside those of the view: {show(is): shows it or not}. changed(): called when one is hidden or shown */
+export function addLayers(dance, changed) {
+  const rows = Object.entries(LAYERS).map(([name, words]) => {
+    const onchange = ({ target }) => {
+      if (target.checked) dance.hidden.delete(name);
+      else dance.hidden.add(name);
+      opener.setAttribute("aria-pressed", String(dance.hidden.size > 0));
+      changed();
+    };
+    return make("label", { className: "tap" }, make("input", { type: "checkbox", checked: true, name, onchange }), " ", make("span", { "data-text": words }));
+  });
+  const box = make("div", { id: "shown", popover: "auto", "data-label": "Shown on the picture" }, make("h3", { "data-text": phrase("Shown on the picture") }), ...rows);
+  const opener = button({ id: "layers", "data-label": phrase("Layers to show or hide"), textContent: "≡", popoverTargetElement: box, hidden: true });
+  $("#views").append(opener);
+  $("#dance").append(box);
+  return { show: (is) => hide(opener, !is) };
+}
