@@ -4,7 +4,8 @@ Random sheets and typed numbers that are nearly right, in the ways in which stud
 from single precision, with noise, with a few wrong, missing or exchanged cells, with errors that add up along the
 benches or come from a solver, or with a small bias. None has a known error, so that each diagnosis is a fault; so is a
 verdict "wrong" on a number that is right to its digits. Files in random layouts are right in every number, or wrong by
-one of the commonest errors, which is named. With CASES it ends after so many, not after SECONDS.
+one of the commonest errors, which is named. Spirals of another pitch or speed are named too, and a team's own turn is
+judged by itself. With CASES it ends after so many, not after SECONDS.
 """
 
 from functools import cache
@@ -17,15 +18,17 @@ from app.grade.handles import HANDLES
 from app.grade.judged import judged
 from app.grade.layout import COMPONENTS, SheetTable, TableKind
 from app.grade.report import graded, typed
+from app.grade.seen_paths import judged_by_turn
 from app.grade.shortcuts import UNITS, right_answer
-from core import Budget
+from core import Budget, Dance, Dragon, Spiral, Turn
 from tests.campaigns import hunting
 from tests.support.student_files import as_csv, in_random_layout
 from tests.support.students import by_xlsxwriter
 
 SECONDS = 120.0
-# Shares of typed numbers and of files among the cases, and of sheets with all instants: others have every 25th.
-TYPED, FILES, WHOLE, THINNED = 0.4, 0.2, 0.02, 25
+# Shares of typed numbers, of files and of other paths among the cases, and of sheets with all instants: others have
+# every 25th.
+TYPED, FILES, PATHS, WHOLE, THINNED = 0.4, 0.2, 0.1, 0.02, 25
 # Numbers of instants in a file, from and below; and share of the files with one sheet that are workbooks.
 INSTANTS = (2, 7)
 WORKBOOKS = 0.3
@@ -195,6 +198,32 @@ def file_fault(random):
     return f"{workbook.value}, {error or 'right'}, {layout}: {grade.verdict.value}, {count} right, {', '.join(names)}"
 
 
+def path_fault(random):
+    """What is false about another pitch, another speed, or a turn that question 4 allows; empty for nothing."""
+    decimals = int(random.integers(4, 7))
+    if random.random() < 0.5:
+        workbook, times = Workbook.RESULT1, times_of(Workbook.RESULT1)[:: random.integers(1, 11)]
+        pitch, speed = round(random.uniform(0.5, 0.62), 3), round(random.uniform(0.8, 1.2), random.integers(1, 3))
+        dance = Dance(Dragon(), Spiral(pitch, 16.0 if random.random() < 0.5 else 8.8 / pitch), speed)
+        wanted = ["other_pitch"] * (pitch != 0.55) + ["other_speed"] * (speed != 1.0)
+        what = f"pitch {pitch}, speed {speed}"
+    else:
+        workbook, times = Workbook.RESULT4, times_of(Workbook.RESULT4)[:: random.integers(1, 6)]
+        entry, ratio = round(random.uniform(4.3, 4.49), random.integers(2, 4)), round(random.uniform(1.05, 1.6), 2)
+        dance, wanted = Dance(Dragon(), Turn(1.7, entry_radius=entry, ratio=ratio)), []
+        what = f"entry {entry}, ratio {ratio}"
+    values = np.round(of_dance(dance)(np.minimum(times, dance.end.time)), decimals)
+    kinds = [TableKind.POSITION, TableKind.SPEED]
+    judgements, own = judged_by_turn(
+        [judged(table_of(kind, times, values), workbook, decimals) for kind in kinds], decimals
+    )
+    names = [one.error for one in diagnosed(judgements, Budget())]
+    is_fine = names == wanted and (
+        workbook is Workbook.RESULT1 or (own is not None and not sum(one.wrong for one in judgements))
+    )
+    return "" if is_fine else f"{what}, {times.size} instants, {decimals} decimals: {', '.join(names)}; {own}"
+
+
 def typed_fault(random):
     """What the grader finds in a number that is right to its digits, nearly right, or random; empty for nothing."""
     name = list(UNITS)[random.integers(len(UNITS))]
@@ -219,8 +248,8 @@ def hunt(seed, seconds=SECONDS, cases=None):
     random = np.random.default_rng(seed)
 
     def fault(seed, case):
-        faults = {"typed number": typed_fault, "file": file_fault, "sheet": sheet_fault}
-        kind = str(random.choice(list(faults), p=[TYPED, FILES, 1.0 - TYPED - FILES]))
+        faults = {"typed number": typed_fault, "file": file_fault, "path": path_fault, "sheet": sheet_fault}
+        kind = str(random.choice(list(faults), p=[TYPED, FILES, PATHS, 1.0 - TYPED - FILES - PATHS]))
         return kind, faults[kind](random)
 
     return hunting.hunt(fault, seed, seconds, cases)
