@@ -187,11 +187,11 @@ def _result(dragon: Dragon, search: PitchSearch) -> MinimumPitch:
 # with it the proofs of ways and bands, hold for these pairs as for those of one dragon.
 def _result_of_several(alone: MinimumPitch, search: PitchSearch) -> MinimumPitch:
     """The result of a search with the pairs of two dragons, down to the minimum pitch of a lone one."""
-    lowest, search.lowest = search.lowest, alone.pitch
-    top, up_to = search.top()
-    infeasible, feasible = search.descend(top)[:2] if top > alone.pitch else (alone.pitch, alone.pitch)
+    above = PitchSearch(search.ways, alone.pitch)
+    top, up_to = above.top()
+    infeasible, feasible = above.descend(top)[:2] if top > alone.pitch else (alone.pitch, alone.pitch)
     ends = [end for end in (alone.proven_up_to, up_to) if end is not None]
-    scans = [(search.scanned_from, search.scan_step), (alone.proven_from, alone.scan_step)]
+    scans = [(above.scanned_from, above.scan_step), (alone.proven_from, alone.scan_step)]
     known = [(start, step) for start, step in scans if start is not None and step is not None and start > feasible]
     shared = replace(
         alone,
@@ -203,8 +203,7 @@ def _result_of_several(alone: MinimumPitch, search: PitchSearch) -> MinimumPitch
     )
     if feasible <= alone.pitch:
         return shared
-    limited_by, pair, head_radius = search.limit(infeasible)
-    search.lowest, dragons = lowest, None
+    (limited_by, pair, head_radius), dragons = above.limit(infeasible), None
     islands = _both(search.islands(infeasible), (*alone.other_feasible_intervals, (alone.pitch, feasible)))
     if pair is not None:
         k, bench = divmod(pair[1], search.search.scene.stride)

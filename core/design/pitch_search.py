@@ -86,8 +86,10 @@ class PitchSearch:
     scanned_from, scan_step: pitch below which single pitches were tried, and step between them [m]; None without a scan
     """
 
-    def __init__(self, ways: Ways) -> None:
-        self.ways, self.search, self.bands, self.lowest = ways, ways.search, ways.bands, ways.lowest
+    def __init__(self, ways: Ways, lowest: float | None = None) -> None:
+        """lowest: the least pitch to try, by default that of the ways [m]"""
+        self.ways, self.search, self.bands = ways, ways.search, ways.bands
+        self.lowest = ways.lowest if lowest is None else lowest
         self.radius, self.start_turns, self.margin = ways.radius, ways.start_turns, ways.margin
         self.is_clear = ways.is_clear
         self.alone = ways.search.dragon.benches == 1 and ways.search.copies == 1
