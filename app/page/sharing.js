@@ -42,6 +42,6 @@ export class Sharing {
 
   #offer(isRead) {
     this.code.hidden = !isRead;
-    this.help.textContent = say(isRead ? "Whoever opens the address, or scans the code, sees the same." : "The address is too long for a QR code: copy it.");
+    this.help.textContent = say(isRead ? "Whoever opens the address, or scans the code, sees the same." : "There is no QR code: the address is too long for one, or the service is away. Copy it.");
   }
 }
