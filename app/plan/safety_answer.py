@@ -24,7 +24,7 @@ class Assumption(Answer):
 
     label: str = Field(description="What it is, in the language asked for")
     text: str = Field(description="The value with its unit")
-    yours: bool = Field(description="True: the request gives it; false: it is assumed")
+    yours: bool = Field(description="True: the request sets it; false: it is assumed, or is the default")
 
 
 class Approach(Answer):

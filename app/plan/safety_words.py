@@ -10,7 +10,7 @@ import core
 from app.plan.safety_answer import Lane, SafetySheet
 from app.plan.timing import TimeFormat
 from app.wire.readings import bench_words
-from core.language import Listed, counted, joined, say, sense
+from core.language import Listed, counted, joined, phrase, say, sense
 from core.quantities import format_bound, format_number
 
 # Most times in a lane that a sheet names.
@@ -100,12 +100,19 @@ def _ground_words(answer: SafetySheet, spectators: float) -> list[str]:
 
 def _gate_words(answer: SafetySheet, performance: core.Performance, clock: TimeFormat) -> list[str]:
     several, lines = len(performance.parts) > 1, list[str]()
-    for one in answer.gates:
+    at = [(one.dragon, one.name) for one in answer.gates]
+    for k, one in enumerate(answer.gates):
+        earlier, count = at[:k].count(at[k]), at.count(at[k])
+        if 0 < earlier < count - 1:
+            continue
         words = say(
             "{name}: head {head}, tail {tail}", name=one.name, head=clock.words(one.head), tail=clock.words(one.tail)
         )
         if one.lasts is not None:
             words += say(", {seconds:.0f} s to pass", seconds=one.lasts)
+        if count > 2:
+            nth = phrase(" (first of {count} times)") if earlier == 0 else phrase(" (last of {count} times)")
+            words += say(nth, count=count)
         lines.append(say("{name}: {text}", name=performance.name_of(one.dragon), text=words) if several else words)
     for k, part in enumerate(performance.parts):
         length, speed = float(part.dance.dragon.chords.sum()), part.dance.head_speed

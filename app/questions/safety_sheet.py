@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
-from pydantic import Field
+from pydantic import BaseModel, Field
 
 import core
 from app.plan.safety_answer import (
@@ -49,7 +49,7 @@ from app.questions.plan import (
 from app.wire.dances import PathFields, clock_of, starting
 from app.wire.degrees import Place
 from app.wire.fields import Address, OneLine, measure
-from app.wire.geojson import GATE, geometry_of
+from app.wire.geojson import GATE, INNER_SQUARE, geometry_of
 from app.wire.geojson import LANE as LANE_ROLE
 from app.wire.performances import SeveralFields
 from app.wire.question import JSON, UNKNOWN_COST, Command, ListOption, Output, Question, Terms
@@ -60,7 +60,7 @@ from core.motion.places import Passing
 from core.motion.trajectory import trajectory
 from core.quantities import Parameter, format_bound, format_number
 from core.questions import question_about
-from core.shapes.engines import Polygons, area_of, free_width, holds_all, merged, widened
+from core.shapes.engines import Polygons, area_of, free_width, holds_all, inside, merged, widened
 from core.shapes.reach import gains
 from core.shapes.rectangles import bench_poses
 
@@ -79,6 +79,8 @@ LOOSE = 3
 EXCESS, APART = 0.01, 4.0
 # Distance from which on an approach is none, such as that to the border of an endless plain [m].
 FAR = 1000.0
+# Points of a path at which it is looked at whether it leads through a gate [1].
+GATE_SAMPLES = 41
 
 
 class SafetySheetRequest(SeveralFields, GatedDance, strict=True):
@@ -206,6 +208,12 @@ class _Judged:
             for k, one in enumerate(drawn[:GATES_MAX], start=1)
         ]
 
+    @property
+    def inner(self) -> np.ndarray | None:
+        """Corners of the square without the streets that were added beyond its gates [m]; None if none were added."""
+        rings = [one.points for one in self.place.asides if one.role == INNER_SQUARE]
+        return np.array(rings[0]) if rings else None
+
     def answer(self, terms: Terms) -> SafetySheet:
         request, swept, loose = self.request, self.swept, self.loose
         ground, reached = merged(one.polygons for one in swept), merged(one.polygons for one in loose)
@@ -218,7 +226,9 @@ class _Judged:
             sentences=self.sentences(),
             start=self.start,
             stop=self.stop,
-            assumptions=assumptions_of(request, [part.dance.dragon for part in self.performance.parts]),
+            assumptions=assumptions_of(
+                request, [part.dance.dragon for part in self.performance.parts], self.inner is not None
+            ),
             approaches=self._approaches(),
             swept=Ground(ground=geometry_of(ground), area=area_of(ground), excess=max(one.excess for one in swept)),
             spectators=geometry_of(self.closed),
@@ -296,7 +306,7 @@ class _Judged:
             ]
             for number, one in enumerate(answer.approaches, start=1)
         ]  # fmt: skip
-        rests = [[one.label, one.text, say("organiser") if one.yours else say("assumed")] for one in answer.assumptions]
+        rests = [[one.label, one.text, say("as set") if one.yours else say("assumed")] for one in answer.assumptions]
         span_words = {"start": clock.words(answer.start), "stop": clock.words(answer.stop)}
         count = sum(part.dance.dragon.benches for part in performance.parts)
         subtitle = say("Safety sheet: {benches} benches, from {start} to {stop}", benches=count, **span_words)
@@ -305,13 +315,12 @@ class _Judged:
                 "Safety sheet: {dance_count} dragons, {benches} benches, from {start} to {stop}",
                 dance_count=len(performance.parts), benches=count, **span_words,
             )  # fmt: skip
-        given = {"stray", "hole", "pin"} & request.model_fields_set
         verdict, known = answer.sentences
         return SafetyWords(
             title=request.title or say("Bench dragon"),
             subtitle=subtitle,
             verdict=answer.verdict.value,
-            sentences=[verdict, joined([known, *cautions(answer, nobody_strays=not (given or request.total_stray))])],
+            sentences=[verdict, joined([known, *cautions(answer, nobody_strays=not request.total_stray)])],
             date=request.date,
             address=request.address,
             approaches=_table(
@@ -432,14 +441,27 @@ class _Judged:
         dances = [part.dance for part in self.performance.parts]
         ends = [(span["start"], span["stop"]) for span in self.spans]
         every = passes_of_gates(self.request, dances, ends, terms.budget, self.venue_gates)
-        gates = list[GatePass]()
+        gates, within = list[GatePass](), {one.name: one.within for one in self.venue_gates}
         for (k, part, _), span, passes in zip(self.dances, ends, every, strict=True):
             passing = Passing(part.dance, *span, budget=terms.budget)
             for name, s in passes:
+                if name in within and not self._leads_through(part.dance.path, s, within[name]):
+                    continue
                 times = (passing.when(handle, s) for handle in (0, part.dance.dragon.benches))
                 head, tail = (None if time is None else time + part.delay for time in times)
                 gates.append(GatePass.between(k, name, head, tail))
         return gates
+
+    def _leads_through(self, path: Any, s: float, within: float) -> bool:
+        """True if a path that comes near a gate of the square at s leads into or out of the square there.
+
+        Where no streets were added, no path leaves the square: each is taken as a passage. s, within: [m]
+        """
+        if self.inner is None:
+            return True
+        points = path.position(np.linspace(max(s - within, path.begin), min(s + within, path.end), GATE_SAMPLES))
+        is_in = inside([self.inner], points)
+        return bool(is_in.any() and not is_in.all())
 
     def _fastest(self) -> FastestCarriers | None:
         """The fastest carriers of all dragons that move; None where one of these has no highest speed."""
@@ -489,12 +511,17 @@ def loose_of(request: SafetySheetRequest, dragon: core.Dragon) -> int:
     return request.loose or min(LOOSE, dragon.benches)
 
 
-def assumptions_of(request: SafetySheetRequest, dragons: Sequence[core.Dragon]) -> list[Assumption]:
-    """What a sheet rests on, and which of it the request gives."""
-    given = request.model_fields_set
+def assumptions_of(
+    request: SafetySheetRequest, dragons: Sequence[core.Dragon], has_added_streets: bool
+) -> list[Assumption]:
+    """What a sheet rests on, and which of it the request sets to another value than the default.
+
+    A page sends every field: a value that is the default may be one that nobody has thought of.
+    """
     bodies: Sequence[PathFields] = request.dances or [request]
-    own = {name for one in bodies for name in one.dragon.model_fields_set}
-    moves = {name for one in bodies for name in one.model_fields_set}
+    own = {name for one in bodies for name in _set_in(one.dragon)}
+    moves = {name for one in bodies for name in _set_in(one)}
+    given = _set_in(request)
 
     def each(values: Sequence[float]) -> str:
         """The value, or the least and the largest of several."""
@@ -504,35 +531,49 @@ def assumptions_of(request: SafetySheetRequest, dragons: Sequence[core.Dragon]) 
     lengths = [float(one) for dragon in dragons for one in dragon.lengths]
     sizes = say("{low} to {high} m long", low=format_number(min(lengths)), high=format_number(max(lengths)))
     speed = say("no limit") if request.speed_limit is None else f"{format_number(request.speed_limit)} m/s"
-    streets = say("none given") if request.venue is None else say("as drawn")
     benches = " + ".join(str(dragon.benches) for dragon in dragons[:DRAGONS_NAMED])
     if len(dragons) > DRAGONS_NAMED:
         benches += " + …"
+    loose = max(loose_of(request, dragon) for dragon in dragons)
+    head_speed = f"{each([one.head_speed for one in bodies])} m/s"
     rows = [
-        (say("benches"), benches, bool(own & {"benches", "lengths"})),
+        (say("benches"), benches, bool(own & {"benches", "lengths", "csv"})),
         (say("sizes of benches"), sizes, bool(own - {"benches", "names"})),
-        (
-            say("speed of the head"),
-            f"{each([one.head_speed for one in bodies])} m/s",
-            bool(moves & {"head_speed", "passages", "beats"}),
-        ),
-        (
-            say("people stray at most"),
-            f"{format_number(request.total_stray or 0.0)} m",
-            bool(given & {"stray", "hole", "pin"}),
-        ),
-        (say("benches keep apart"), f"{format_number(request.margin)} m", "margin" in given),
+        (say("speed of the head"), head_speed, bool(moves & {"head_speed", "passages", "beats"})),
+        (say("people stray at most"), _metres(request.total_stray or 0.0), bool(given & {"stray", "hole", "pin"})),
+        (say("benches keep apart"), _metres(request.margin), "margin" in given),
         (say("speed limit"), speed, "speed_limit" in given),
-        (say("square, streets and obstacles"), streets, request.venue is not None),
-        (say("people stand back"), f"{format_number(request.spectators)} m", "spectators" in given),
-        (
-            say("last benches that may be let go"),
-            str(max(loose_of(request, dragon) for dragon in dragons)),
-            "loose" in given,
-        ),
+        *_ground_rows(request.venue is not None, has_added_streets),
+        (say("people stand back"), _metres(request.spectators), "spectators" in given),
+        (say("last benches that may be let go"), str(loose), "loose" in given),
         (say("time to stop"), f"{format_number(request.reaction)} s", "reaction" in given),
     ]
     return [Assumption(label=label, text=text, yours=yours) for label, text, yours in rows]
+
+
+def _set_in(body: BaseModel) -> set[str]:
+    """Names of the fields that a request sets to another value than their default."""
+    fields = type(body).model_fields
+    return {
+        name
+        for name in body.model_fields_set
+        if getattr(body, name) != fields[name].get_default(call_default_factory=True)
+    }
+
+
+def _metres(value: float) -> str:
+    return f"{format_number(value)} m"
+
+
+def _ground_rows(has_venue: bool, has_added_streets: bool) -> list[tuple[str, str, bool]]:
+    """What a sheet rests on of the venue: nobody has drawn the streets that were added to it for a dance."""
+    if not has_added_streets:
+        drawn = say("as drawn") if has_venue else say("none given")
+        return [(say("square, streets and obstacles"), drawn, has_venue)]
+    return [
+        (say("square and obstacles"), say("as drawn"), True),
+        (say("streets beyond the gates"), say("added for the dance, to be measured"), False),
+    ]
 
 
 def _cost(request: SafetySheetRequest, form: str = JSON) -> float:

@@ -104,7 +104,8 @@ class ProposalCards:
         return x, y
 
     def _wide(self, one: core.Proposal) -> str:
-        return say("{wide} m wide", wide=f"{np.ptp(self._danced(one)[0]):.0f}")
+        wide = phrase("{wide} m wide with its ways to the gates") if one.gates else phrase("{wide} m wide")
+        return say(wide, wide=f"{np.ptp(self._danced(one)[0]):.0f}")
 
     def _side(self, one: core.Proposal) -> str:
         x, y = self._danced(one)

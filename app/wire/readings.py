@@ -179,7 +179,7 @@ def way_words(dance: core.Dance, start: float, stop: float, begins: str | None) 
         return [say("The path is {length} m long.", length=length)]
     way = phrase("The head walks {way} m in {time} s.")
     if begins is None and abs(start) >= INSTANT:
-        way = phrase("The head walks {way} m in {time} s, from {from} s to {to} s of its clock.")
+        way = phrase("The head walks {way} m in {time} s, from {from} s to {to} s on the time line.")
     values = {"way": f"{last - first:.1f}", "time": time, "from": f"{start:.2f}", "to": f"{stop:.2f}"}
     words, stands = [say(way, **values)], first - path.begin
     if stands >= STANDS:

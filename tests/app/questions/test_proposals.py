@@ -60,6 +60,13 @@ def test_every_dance_passes_its_check_as_it_is(ask, more):
     assert len(set(titles)) == len(titles)
 
 
+def test_a_width_says_that_the_ways_to_the_gates_count(ask):
+    found = ask("proposals", BODY | {"figures": ["ring"], "gates": [GATES[0] | {"use": "both"}]})["proposals"]
+    titles = [one["cards"]["en"]["title"] for one in found]
+    assert len(titles) == 2
+    assert all(re.fullmatch(r"Ring, \d+ m wide with its ways to the gates", one) for one in titles)
+
+
 def test_a_reason_stands_where_no_dance_fits(ask):
     answer = ask("proposals", BODY | {"venue": LANE})
     assert (answer["proposals"], answer["reason_kind"], answer["reason"]) == ([], "width", TOO_NARROW)

@@ -206,6 +206,37 @@ def test_what_is_assumed_is_told_from_what_is_given(ask):
     assert [one["label"] for one in bare["assumptions"] if one["yours"]] == ["benches"]
     assert bare["lanes"] == []
     assert bare["gates"] == []
+    # A page sends all fields: one that is the default may be one that nobody has thought of.
+    sent = {"head_length": 3.41, "width": 0.3, "benches": 5}
+    every = IN_STREET | {"dragon": sent, "head_speed": 1.0, "margin": 0.0, "stray": 0.0, "reaction": 2.0}
+    assert ask("safety-sheet", every)["assumptions"] == bare["assumptions"]
+    (page,) = sheets_of(ask.file("safety-sheet", every, PDF_TYPE))
+    assert "nobody leaves their place, which is only assumed" in " ".join(page.split())
+
+
+def test_streets_that_were_added_are_assumed_and_only_who_leaves_the_square_passes_a_gate(ask):
+    """A path enters by the gate in the west, comes back to it twice on the square, and leaves by that in the north."""
+    ways = [(-20, 0), (20, 0), (20, 14), (3, 14), (3, -14), (17, -14), (17, 10), (3, 10), (3, -10), (12, -10), (12, 40)]
+    square = [[0, -20], [40, -20], [40, 20], [0, 20], [0, -20]]
+    area = [[0, -20], [40, -20], [40, 20], [14, 20], [14, 50], [10, 50], [10, 20], [0, 20]]
+    area += [[0, 2], [-25, 2], [-25, -2], [0, -2], [0, -20]]
+
+    def aside(kind, coordinates, **properties):
+        return {"type": "Feature", "properties": properties, "geometry": {"type": kind, "coordinates": coordinates}}
+
+    inner = aside("LineString", square, role="square without streets")
+    gates = [aside("Point", at, role="gate", name=name) for name, at in (("west", [0, 0]), ("north", [12, 20]))]
+    body = {"dragon": {"benches": 3}, "path": line(*ways, radius=1.5, straight=list(range(10))), "spectators": 2.0}
+    venues = [
+        {"type": "FeatureCollection", "features": [polygon(area, name="square"), *gates, *more]}
+        for more in ([], [inner])
+    ]
+    answers = [ask("safety-sheet", body | {"venue": venue}) for venue in venues]
+    drawn, added = ({one["label"]: one["yours"] for one in answer["assumptions"]} for answer in answers)
+    assert drawn["square, streets and obstacles"]
+    assert (added["square and obstacles"], added["streets beyond the gates"]) == (True, False)
+    assert [one["name"] for one in answers[0]["gates"]] == ["west", "west", "west", "north"]
+    assert [one["name"] for one in answers[1]["gates"]] == ["west", "north"]
 
 
 @pytest.mark.parametrize(
