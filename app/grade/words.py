@@ -39,6 +39,7 @@ WORDS: Phrases = ERRORS | PAPER | {f"name_{code}": name for code, name in NAMES.
     "read_as": "Read as {number}.",
     "full_width": "Its digits are full-width ones, as a Chinese keyboard writes them: a workbook takes them for text.",
     "with_unit": "The unit {unit} is meant anyway and need not be written.",
+    "converted": "It was written in {written} and is converted to {unit}.",
     "with_comma": "The comma counts as the decimal point.",
     # -- files that cannot be graded --
     "too_long": "The file has more than {most} MB, so it was not read: a workbook of the contest is about 2 MB.",

@@ -122,7 +122,7 @@ def test_the_lines_of_python_beside_each_figure_compute_what_it_shows(open_page)
         "chord": "0.99635490",
         "staircase": "0.450337393",
         "step": "clear 1 1.257",
-        "graze": "0 of 10 looks",
+        "graze": "0 of 11 looks",
         "proof": "0.000865",
         "stray": "0.04664",
         "turn": "13.621244",

@@ -274,7 +274,7 @@ def test_a_figure_is_moved_sized_turned_and_mirrored_as_a_whole_until_it_is_free
 
 
 def test_a_touch_of_a_name_takes_its_thing_and_layers_are_hidden_and_shown_again(open_page):
-    person = open_page(f"{S_CURVE}&things=c.elm.1.10,8&view=0,10,10", **PHONE).sees({"#verdict": True})
+    person = open_page(f"{S_CURVE}&things=c.elm.1.10,8&view=0,10,10", failing=True, **PHONE).sees({"#verdict": True})
     box = person.presses("#edit").settles().box("#canvas")
     x, y = box["x"] + 0.5 * box["width"] + 100, box["y"] + 0.5 * box["height"] + 20
     person.page.touchscreen.tap(x + 24, y - 14)

@@ -24,19 +24,20 @@ print(proof.outcome, proof.certificate.steps, proof.certificate.bound)`,
 from core import Dance, Dragon, Spiral, clearance_profile, first_contact
 
 dance = Dance(Dragon(benches=40), Spiral(${pitch}))
-looks = clearance_profile(dance, np.arange(211.0, 221.0, ${step}))
+looks = clearance_profile(dance, np.arange(211.0, 221.01, ${step}))
 print((looks.clearance < 0.0).sum(), "of", looks.time.size, "looks see an overlap")
 print(first_contact(dance).time)`,
   stray: ({ stray, pitch }) => `from core import Dance, Dragon, Spiral, first_contact, tolerance_curve
 
+spiral = Spiral(${pitch})
 print(tolerance_curve(Dragon(), [${pitch}]).stray)
-print(first_contact(Dance(Dragon(), Spiral(${pitch})), stray=${(stray / 100).toFixed(3)}))`,
+print(first_contact(Dance(Dragon(), spiral), stray=${(stray / 100).toFixed(3)}, stop=spiral.travel_to(4.5)))`,
   proof: ({ step, width }) => `import numpy as np
 
 from core import Dance, Dragon, Spiral, clearance_profile, first_contact
 
 dance = Dance(Dragon(benches=40, width=${(width / 100).toFixed(4)}), Spiral(0.55))
-looks = clearance_profile(dance, np.arange(405.5, 411.5, ${step}))
+looks = clearance_profile(dance, np.arange(405.5, 411.51, ${step}))
 print("looks see a gap of", 1000 * looks.clearance.min(), "mm at least")
 proof = first_contact(dance, start=405.5, stop=411.5)
 print(proof.outcome, proof.certificate.steps, proof.certificate.least_clearance)`,

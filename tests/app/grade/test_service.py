@@ -84,6 +84,7 @@ def test_a_name_in_another_encoding_is_no_obstacle(client, name):
         ("collision_time", " 412.473838 ", []),
         ("turn_length", "１３．６２１２４５", ["Read as 13.621245.", "Its digits are full-width ones"]),
         ("collision_time", "４１２，４７ 秒", ["Read as 412.47.", "Its digits", "The unit s", "The comma"]),
+        ("pitch", "45.0338 cm", ["Read as 0.450338.", "It was written in cm and is converted to m."]),
         ("pitch", "0。450338", ["Read as 0.450338.", "Its digits are full-width ones"]),
     ],
 )
@@ -113,9 +114,9 @@ def test_a_wrong_number_that_is_right_in_another_unit_is_recognised(client, name
 @pytest.mark.parametrize(
     "text, sentence",
     [
-        ("45.03 cm", "“Length of the turn” must be in m, without another unit, got '45.03 cm'."),
-        ("abc", "“Length of the turn” must be a number [m] in digits, such as 0.4503, got 'abc'."),
-        ("十三", "“Length of the turn” must be a number [m] in digits, such as 0.4503, got '十三'."),
+        ("45.03 ft", "“Length of the turn” must be in m, without another unit, got '45.03 ft'."),
+        ("abc", "“Length of the turn” must be a number [m] in digits, such as 12.345, got 'abc'."),
+        ("十三", "“Length of the turn” must be a number [m] in digits, such as 12.345, got '十三'."),
     ],
 )
 def test_what_is_no_number_of_its_unit_is_refused_in_a_sentence(client, text, sentence):
