@@ -237,6 +237,9 @@ def test_streets_that_were_added_are_assumed_and_only_who_leaves_the_square_pass
     assert (added["square and obstacles"], added["streets beyond the gates"]) == (True, False)
     assert [one["name"] for one in answers[0]["gates"]] == ["west", "west", "west", "north"]
     assert [one["name"] for one in answers[1]["gates"]] == ["west", "north"]
+    words = " ".join(sheets_of(ask.file("safety-sheet", body | {"venue": venues[0]}, PDF_TYPE))[0].split())
+    assert words.count("west: head") == 2
+    assert re.search(r"west: head .*\(first of 3 times\).*west: head .*\(last of 3 times\).*north: head", words)
 
 
 @pytest.mark.parametrize(
