@@ -61,6 +61,7 @@ def test_from_nothing_to_a_certified_dance_on_a_phone(open_page):
     assert person.ask(NARROW) == []
     for language in ("zh", "en"):
         assert not person.speaks(language).overflows(390)
+        assert person.ask("document.querySelector('#cards button').offsetWidth") > 250
         assert not re.search("undefined|NaN", person.text("#place"))
     assert person.findings() == []
     # What was chosen is in the address, to every digit.
