@@ -35,16 +35,17 @@ export class Challenge {
   /** After a change of the dance, its answers, the door or the language. */
   show() {
     const { dance, answers } = this.questions;
-    const isOn = this.state.get("door") === "look" && dance?.kind === "spiral";
+    const isOn = this.state.get("door") === "look" && dance?.kind === "spiral" && !this.state.get("dances");
     for (const part of [this.box, this.feast]) hide(part, !isOn);
     if (!isOn) return;
     writeTexts();
     this.hint.textContent = say("Drag the pitch below, the distance from one turn of the spiral to the next. The head has to get to the circle in the middle, {diameter} m across, before two benches touch.", { diameter: this.#diameter });
-    const { answer, query } = dance;
+    const { answer, query, numbers } = dance;
     const { pitch: text, ...others } = query;
     const [pitch, key] = [Number(text), JSON.stringify([others, this.#diameter])];
     const far = answer.head && answer.head.radius - this.#diameter / 2;
-    const gets = answer.time === null ? answer.end?.reason === "centre" : far <= 0;
+    const isInside = pitch * numbers.start_turns <= this.#diameter / 2;
+    const gets = !isInside && (answer.time === null ? answer.end?.reason === "centre" : far <= 0);
     if (key !== this.#best.key) this.#best = { pitch: Infinity, key };
     if (gets) this.#best.pitch = Math.min(this.#best.pitch, pitch);
     const best = this.#best.pitch;
@@ -52,7 +53,8 @@ export class Challenge {
     const tightest = least && best - least < NEAR ? say("You are at the limit: from {least} m on, every wider spiral gets there.", { least: bound(least, DECIMALS, 1) }) : "";
     const at = fixed(pitch, DECIMALS);
     const arrived = () => (answer.time === null ? say("✓ At {pitch} m the head gets to the circle, and nothing touches.", { pitch: at }) : say("✓ At {pitch} m the head gets to the circle. Two benches touch only after that, {inside} m farther in.", { pitch: at, inside: fixed(-far, 2) }));
-    const now = gets ? arrived() : far > 0 ? say("✕ At {pitch} m two benches touch while the head is still {far} m outside the circle.", { pitch: at, far: fixed(far, 2) }) : "";
+    const inside = () => say("✕ At {pitch} m the head already begins inside the circle, so this does not count.", { pitch: at });
+    const now = isInside ? inside() : gets ? arrived() : far > 0 ? say("✕ At {pitch} m two benches touch while the head is still {far} m outside the circle.", { pitch: at, far: fixed(far, 2) }) : "";
     const record = best < Infinity ? say("Your tightest: {pitch} m.", { pitch: fixed(best, DECIMALS) }) : "";
     this.words.textContent = sentencesOf([now, gets && best === pitch ? tightest || say("Tighter?") : record]);
     this.card.disabled = !gets || best !== pitch;

@@ -33,6 +33,8 @@ const DARK = ["#ff8b7c", "#6cb4ff", "#63d585", "#ff8de9", "#ff9d4d", "#4fc7c7", 
 const isDark = () => document.documentElement.dataset.theme === "dark" && !matchMedia("print").matches;
 /** Largest delay [s], and waiting time of a copy [s]. */
 const [DELAY_MOST, LATER] = [1e6, 30];
+/** What a preset changes of a spiral besides its pitch. */
+const START = ["benches", "start_turns"];
 /** Longest wait of a dragon behind another one that is looked for [s]. */
 const WAIT_MOST = 600;
 const DEGREE = Math.PI / 180;
@@ -49,6 +51,8 @@ const on = (record, drawing) => ({ ...Object.fromEntries(Object.entries(record).
 
 export class Dragons {
   #loads = Symbol("dragons");
+  /** The dance before a preset took its place, as a record. */
+  #before = {};
   /** True while the list is to come into view, because a person has opened it. */
   #comes = false;
   /** Paths of the dragons of the shown dance. @type {any[]} */
@@ -143,8 +147,14 @@ export class Dragons {
     return this.#records.map((record, k) => (k === this.#active ? { ...record, ...this.#present() } : record));
   }
 
+  /** True for the benches and the start of a preset. */
+  get #isPreset() {
+    return START.every((name) => this.state.get(name) === PRESETS.spiral[0][name]);
+  }
+
   begin(name) {
     const records = PRESETS[name];
+    if (!this.#isPreset) this.#before = this.#present();
     // A person's own square stays, and the verdict says what does not fit into it.
     const drawing = this.state.get("drawing");
     const values = this.#valuesOf(records[0], isPresetVenue(drawing) ? EMPTY : drawing);
@@ -297,7 +307,10 @@ export class Dragons {
   }
 
   #close() {
-    this.steps.change({ dances: "", dragon: 0 });
+    // Who just looks sees no start of a preset, so the one of before comes back, and the benches.
+    const isHidden = this.#isPreset && this.state.get("door") === "look" && this.state.get("path") === "spiral";
+    const before = this.#valuesOf(this.#before);
+    this.steps.change({ dances: "", dragon: 0, ...(isHidden && Object.fromEntries(START.map((name) => [name, before[name]]))) });
   }
 
   /** Change what dragon k has in addition to its dance. */

@@ -303,6 +303,7 @@ const SHOW_STATE = {
   dances(dances) {
     if (dances) openDragons().then((one) => one.show());
     else dragons?.show();
+    challenge?.show();
   },
   start_clock: showTime,
   time() {

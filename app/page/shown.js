@@ -1,6 +1,6 @@
 /** Layers of the picture that a person hides and shows again. */
 
-import { $, button, hide, make } from "./elements.js";
+import { $, button, hide, make, textButton } from "./elements.js";
 import { phrase } from "./text.js";
 
 /** Layers by their names in `dance.hidden`. @type {Phrases} */
@@ -15,9 +15,11 @@ export function addLayers(dance, changed) {
       opener.setAttribute("aria-pressed", String(dance.hidden.size > 0));
       changed();
     };
-    return make("label", { className: "tap" }, make("input", { type: "checkbox", checked: true, name, onchange }), " ", make("span", { "data-text": words }));
+    return make("label", {}, make("input", { type: "checkbox", checked: true, name, onchange }), make("span", { "data-text": words }));
   });
-  const box = make("div", { id: "shown", popover: "auto", "data-label": "Shown on the picture" }, make("h3", { "data-text": phrase("Shown on the picture") }), ...rows);
+  const box = make("div", { id: "shown", popover: "auto", "data-label": "Shown on the picture" }, make("h3", { "data-text": phrase("Shown on the picture") }), ...rows, textButton("Close", () => box.hidePopover()));
+  // A drag does not close it by itself.
+  $("#canvas").addEventListener("pointerdown", () => box.hidePopover());
   const opener = button({ id: "layers", "data-label": phrase("Layers to show or hide"), textContent: "≡", popoverTargetElement: box, hidden: true });
   $("#views").append(opener);
   $("#dance").append(box);

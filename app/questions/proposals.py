@@ -198,11 +198,13 @@ def _answer_of(request: ProposalsRequest, result: core.Proposals, place: Place) 
     return Proposals.from_result(result, proposals=bodies, summary=result.message, **own)
 
 
-def _worded(request: ProposalsRequest, found: Sequence[core.Proposal], place: Place) -> list[Proposal]:
-    """Proposals with their cards, each beside the others."""
+def _worded(
+    request: ProposalsRequest, found: Sequence[core.Proposal], place: Place, ended: bool = True
+) -> list[Proposal]:
+    """Proposals with their cards, each beside the others; ended: with what each has most of."""
     assert place.venue is not None
     names = [gate.name or say("gate {k}", k=k) for k, gate in enumerate(request.gates)]
-    cards = ProposalCards(found, place.venue.square, names, request.stray)
+    cards = ProposalCards(found, place.venue.square, names, request.stray, ended)
     return [Proposal.of(one, body_of(request, one, place.origin), cards.of(k)) for k, one in enumerate(found)]
 
 
@@ -220,7 +222,7 @@ def _proposed(request: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, 
 
     def tell(one: core.Proposal) -> None:
         found.append(one)
-        terms.part(_worded(request, found, place)[-1])
+        terms.part(_worded(request, found, place, ended=False)[-1])
 
     result = core.propose(
         place.venue,

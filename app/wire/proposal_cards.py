@@ -42,13 +42,15 @@ class ProposalCard(Answer):
 class ProposalCards:
     """ProposalCards of dances that were proposed together.
 
-    found: the dances; square: in which they are danced; gates: names of all gates; stray: that was asked for [m]
+    found: the dances; square: in which they are danced; gates: names of all gates; stray: that was asked for [m];
+    ended: whether these are all of a search, so that what one has most of is said
     """
 
     found: Sequence[core.Proposal]
     square: core.Area
     gates: Sequence[str]
     stray: float
+    ended: bool = True
 
     def of(self, k: int) -> dict[Language, ProposalCard]:
         """The card of dance k in every language."""
@@ -114,7 +116,7 @@ class ProposalCards:
 
     def _most(self, one: core.Proposal, value: Callable[[core.Proposal], float]) -> bool:
         others = [other for other in self.found if other is not one]
-        return bool(others) and all(value(other) < value(one) - EQUAL for other in others)
+        return self.ended and bool(others) and all(value(other) < value(one) - EQUAL for other in others)
 
     def _good(self, one: core.Proposal) -> list[str]:
         room = phrase("People may be {stray} cm from their places")

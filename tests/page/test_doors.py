@@ -111,6 +111,14 @@ def test_who_just_looks_is_asked_for_the_tightest_spiral_and_gets_a_card_of_it(o
     assert Image.open(BytesIO(card)).size == (1080, 1080)
     assert person.findings() == []
     person.presses("[data-path=turn]").sees({"#challenge": False})
+    # Nothing is won where the head begins inside the circle.
+    inside = {"#challenge-words": "already begins inside the circle", "#challenge-card[disabled]": True}
+    query = "?door=look&lang=en&pitch=0.5&start_turns=8&benches=60"
+    assert "limit" not in open_page(query, failing=True).settles().sees(inside).text("#challenge-words")
+    # Several dragons are no game; one again has the start and the benches of before.
+    person.opens("?door=look&lang=en&benches=100").settles().presses("#several", "[data-dragons=spiral]")
+    person.settles().sees({"#challenge": False}).presses("#dragons-close").settles().sees({"#challenge": True})
+    assert person.holds({"#benches": "100"}).address().get("start_turns", "16") == "16"
 
 
 @thorough
@@ -168,6 +176,7 @@ def test_in_the_village_the_verdict_comes_first_and_its_address_is_shared_and_pr
             "#sweeps, #keepKit-ZIP": False,
         }
     )
+    person.types({"#stray": "1"}, "Tab").sees({"#first-contact .value": "✓Benches with each other: nothing can touch"})
     # Nothing green stands beside a red verdict.
     assert person.style("#first-contact .value", "color") == person.style("body", "color")
     times = {"12,5": "12.50 s", "19:29:55": "-5.00 s", "999": "50.00 s", "soon": "50.00 s"}

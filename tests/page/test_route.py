@@ -273,6 +273,12 @@ def test_a_figure_is_moved_sized_turned_and_mirrored_as_a_whole_until_it_is_free
     person.presses("#undo", "#undo", "#undo").sees({"#figure": True, ".knot": 0})
 
 
+def middle(person, selector):
+    """How far down the middle of an element is [px]."""
+    box = person.box(selector)
+    return box["y"] + 0.5 * box["height"]
+
+
 def test_a_touch_of_a_name_takes_its_thing_and_layers_are_hidden_and_shown_again(open_page):
     person = open_page(f"{S_CURVE}&things=c.elm.1.10,8&view=0,10,10", failing=True, **PHONE).sees({"#verdict": True})
     box = person.presses("#edit").settles().box("#canvas")
@@ -282,11 +288,13 @@ def test_a_touch_of_a_name_takes_its_thing_and_layers_are_hidden_and_shown_again
     assert person.findings() == []
     tree = person.coloured("thing")
     person.presses("#layers").sees({"#shown": ["Dragons", "Photo or plan"]}).presses("#shown [name=things]")
-    person.strikes("Escape").settles()
+    assert abs(middle(person, "#shown [name=things]") - middle(person, "#shown label >> nth=0")) < 2
+    person.presses("#shown button:has-text('Close')").sees({"#shown": False}).settles()
     assert person.coloured("thing") == 0 < tree
     # What is hidden is not touched: there the path goes on.
     person.page.touchscreen.tap(x, y)
-    person.sees({"#beside": False}).presses("#undo", "#layers", "#shown [name=things]").strikes("Escape").settles()
+    person.sees({"#beside": False}).presses("#undo", "#layers", "#shown [name=things]")
+    person.presses("#shown button:has-text('Close')").sees({"#shown": False}).settles()
     assert person.coloured("thing") == tree
 
 

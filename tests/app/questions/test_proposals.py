@@ -5,6 +5,9 @@ import re
 
 import pytest
 
+from app.questions.proposals import ProposalsRequest, proposals
+from app.wire.question import Terms
+from core.language import Language
 from tests.support.asking import box, written
 from tests.support.command import run
 from tests.support.depth import thorough
@@ -65,6 +68,17 @@ def test_a_width_says_that_the_ways_to_the_gates_count(ask):
     titles = [one["cards"]["en"]["title"] for one in found]
     assert len(titles) == 2
     assert all(re.fullmatch(r"Ring, \d+ m wide with its ways to the gates", one) for one in titles)
+
+
+def test_what_a_dance_has_most_of_is_said_once_the_search_has_ended():
+    parts = []
+    request = ProposalsRequest.model_validate(BODY)
+    found = proposals(request, Terms(part=parts.append)).proposals
+    goods = [[one.cards[Language.ENGLISH].good for one in some] for some in (parts, found)]
+    most = re.compile("Most room|longest|most turns|gentlest")
+    before, after = ([good for good in some if most.search(good)] for some in goods)
+    assert (before, len(parts)) == ([], 2)
+    assert after
 
 
 def test_a_reason_stands_where_no_dance_fits(ask):
