@@ -242,11 +242,11 @@ export class Propose {
     if (!yardOf(this.#drawing).length) return this.#tell(() => say("First say how large your square is."));
     const { by } = this.#howLong;
     if (by) return by.focus();
-    this.editor.turn(false);
     const request = this.#request();
     const search = { began: performance.now(), share: 0, job: null, end: new AbortController() };
     this.note = null;
     [this.#search, this.#answer, this.#problem, this.#chosen] = [search, null, null, null];
+    this.editor.turn(false); // it shows all, which asks again for an answer in another language
     this.changed();
     this.words.scrollIntoView({ block: "nearest" });
     pending(this.#looking, true);
