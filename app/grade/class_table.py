@@ -15,7 +15,9 @@ import io
 from collections import Counter, defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, pairwise
+
+import numpy as np
 
 from app.grade.judged import Rating
 from app.grade.words import word
@@ -30,6 +32,8 @@ DEFAULT = {"result1": 40.0, "result2": 20.0, "result4": 40.0, ROUNDED: 0.9}
 POINTS_MAX, DECIMALS = 1000.0, 1
 # Fewest wrong numbers that two files share, and least share of those compared, so that it is pointed out.
 SHARED_LEAST, SHARED_SHARE = 3, 0.5
+# Most files with one number of which all are compared with each other.
+MANY = 8
 
 
 @dataclass(frozen=True)
@@ -130,21 +134,35 @@ def _is_plain(row: ClassRow) -> bool:
 
 
 def _sharing(rows: Sequence[ClassRow]) -> list[tuple[list[ClassRow], set[str]]]:
-    """Groups of files of several teams in which most of the numbers compared are the same wrong ones, with these."""
+    """Groups of files of several teams in which most of the numbers compared are the same wrong ones, with these.
+
+    Of a number in many files only neighbours are compared: who shares a table has its numbers in a row of neighbours.
+    """
+    from scipy.sparse import coo_array  # type: ignore[import-untyped]
+    from scipy.sparse.csgraph import connected_components  # type: ignore[import-untyped]
+
+    numbers = [set(row.unusual) for row in rows]
     holders: dict[str, list[int]] = defaultdict(list)
-    for k, row in enumerate(rows):
-        for number in row.unusual:
+    for k, own in enumerate(numbers):
+        for number in own:
             holders[number].append(k)
-    pairs = Counter(pair for some in holders.values() for pair in combinations(some, 2))
-    groups: list[set[int]] = []
-    for (a, b), count in sorted(pairs.items()):
-        least = min(len(rows[a].unusual), len(rows[b].unusual))
-        if rows[a].team != rows[b].team and count >= max(SHARED_LEAST, SHARED_SHARE * least):
-            near = [group for group in groups if group & {a, b}]
-            groups = [group for group in groups if group not in near] + [{a, b}.union(*near)]
-    sharing = [[rows[k] for k in sorted(group)] for group in groups]
-    shared = [(group, set.intersection(*(set(row.unusual) for row in group))) for group in sharing]
-    return [(group, numbers) for group, numbers in shared if numbers]
+    pairs = Counter(
+        pair for some in holders.values() for pair in (combinations(some, 2) if len(some) <= MANY else pairwise(some))
+    )
+    linked = [
+        (a, b)
+        for (a, b), count in pairs.items()
+        if rows[a].team != rows[b].team
+        and count >= max(SHARED_LEAST, SHARED_SHARE * min(len(numbers[a]), len(numbers[b])))
+    ]
+    if not linked:
+        return []
+    links = coo_array((np.ones(len(linked)), np.array(linked).T), shape=(len(rows), len(rows)))
+    groups: dict[int, list[int]] = defaultdict(list)
+    for k, label in enumerate(connected_components(links, directed=False)[1].tolist()):
+        groups[label].append(k)
+    shared = [(group, set.intersection(*(numbers[k] for k in group))) for group in groups.values() if len(group) > 1]
+    return [([rows[k] for k in group], some) for group, some in shared if some]
 
 
 def _teams(group: Sequence[ClassRow]) -> int:

@@ -71,6 +71,16 @@ LARGEST = {
     "cues": {"dragon": {"benches": 2000}, "path": COIL, "last_bench": 999, "reach": 1000, "stop": 1000},
     "crew": ON_COIL,
     "contest_answer": {"question": 4, "further": True},
-    "class_table": {"files": [{"team": f"{k}", "file": "result1.xlsx", "verdict": "right"} for k in range(2_000)]},
+    "class_table": {
+        "files": [
+            {
+                "team": f"{k}",
+                "file": "result1.xlsx",
+                "verdict": "wrong",
+                "unusual": [f"x {(k + i) % 60} s 1: 1.234567" for i in range(40)],
+            }
+            for k in range(2_000)
+        ]
+    },
     "contest_kit": {},
 }
