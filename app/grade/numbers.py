@@ -18,6 +18,7 @@ from app.grade.contacts import PITCH_RANGE, longest_overlap
 from app.grade.judged import Rating
 from app.grade.limits import SAFE_SIDE, WIDER_LENGTH, beyond, broken, limit_of
 from app.grade.shortcuts import UNITS, Finding, Shortcut, pitch_grids, right_answer, shortcuts
+from app.grade.typed_number import OTHER_UNITS
 from app.grade.words import Note, note
 
 # Half units of the last digit within which a number agrees: 2 % more for numbers that were rounded twice.
@@ -40,12 +41,6 @@ OVERLAP_MOST = 0.1
 DIGITS_LEAST = 2
 # Most decimals of a rounded number.
 DECIMALS_MOST = 4
-# Other units in which people may have an answer, by its unit: names and their numbers in one of it.
-OTHER_UNITS = {
-    "s": {"min": 1 / 60, "ms": 1e3},
-    "m": {"cm": 100.0, "mm": 1e3, "km": 1e-3},
-    "m/s": {"km/h": 3.6, "cm/s": 100.0, "mm/s": 1e3},
-}
 # Length that every turn exceeds whose first arc has twice the radius of the second [m], as core.shortest_turn() proves.
 TURN_OF_TWO_LEAST = 11.7991513
 
@@ -118,9 +113,9 @@ def _wrong(name: str, value: float, half_unit: float) -> Graded:
 
 def _in_other_unit(name: str, value: float, half_unit: float) -> Note | None:
     """That a number is the right one in another unit than asked for, if it is."""
-    for other, factor in OTHER_UNITS[UNITS[name]].items():
-        if abs(value - factor * right_answer(name)) < 2.0 * half_unit <= DIGITS_SHARE * value:
-            number = f"{value / factor:.{_decimals_of(half_unit / factor)}f}"
+    for other, size in OTHER_UNITS[UNITS[name]].items():
+        if abs(value - right_answer(name) / float(size)) < 2.0 * half_unit <= DIGITS_SHARE * value:
+            number = f"{value * float(size):.{_decimals_of(half_unit * float(size))}f}"
             return note("in_other_unit", other=other, unit=UNITS[name], number=number)
     return None
 

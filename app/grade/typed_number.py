@@ -20,12 +20,15 @@ WRITTEN = {
     "m": ("m", "metres", "meters", "米"),
     "m/s": ("m/s", "mps", "米/秒", "米每秒"),
 }
-# Other units that people write, and the power of ten that makes of them the one that is asked for.
-CONVERTED = {
-    "s": {"ms": -3, "毫秒": -3},
-    "m": {"mm": -3, "毫米": -3, "cm": -2, "厘米": -2, "km": 3, "千米": 3, "公里": 3},
-    "m/s": {"mm/s": -3, "毫米/秒": -3, "cm/s": -2, "厘米/秒": -2},
+# Sizes of other units that people write, in the unit that is asked for; and their names in Chinese.
+OTHER_UNITS = {
+    "s": {"min": Decimal(60), "ms": Decimal("1e-3")},
+    "m": {"cm": Decimal("1e-2"), "mm": Decimal("1e-3"), "km": Decimal("1e3")},
+    "m/s": {"km/h": 1 / Decimal("3.6"), "cm/s": Decimal("1e-2"), "mm/s": Decimal("1e-3")},
 }
+CHINESE = {
+    "毫秒": "ms", "厘米": "cm", "毫米": "mm", "千米": "km", "公里": "km", "厘米/秒": "cm/s", "毫米/秒": "mm/s",
+}  # fmt: skip
 # Numbers of usual form.
 EXAMPLES = {"s": "300.25", "m": "12.345", "m/s": "1.25"}
 
@@ -38,22 +41,23 @@ def plain_number(name: str, text: str, unit: str) -> tuple[str, list[Note]]:
     """
     typed = text.strip()
     bare, notes = unicodedata.normalize("NFKC", typed).replace("。", "."), []
-    power: int | None = 0
+    size = None
     if bare != typed:
         notes.append(note("full_width"))
     if not TYPED.fullmatch(bare) and (parts := WITH_UNIT.fullmatch(bare)):
         written = parts["unit"].lower()
-        power = 0 if written in WRITTEN[unit] else CONVERTED[unit].get(written)
-        if power is None:
+        size = OTHER_UNITS[unit].get(CHINESE.get(written, written))
+        # By a power of ten alone: other sizes would change the digits, which show the rounding.
+        if written not in WRITTEN[unit] and not (size and size == Decimal(10) ** size.adjusted()):
             raise InvalidValue(name, "must be in {unit}, without another unit", got=Given(text), unit=unit)
         bare = parts["number"]
-        notes.append(note("with_unit", unit=unit) if not power else note("converted", written=written, unit=unit))
+        notes.append(note("converted", written=written, unit=unit) if size else note("with_unit", unit=unit))
     if bare.count(",") == 1 and "." not in bare:
         bare = bare.replace(",", ".")
         notes.append(note("with_comma"))
     if not TYPED.fullmatch(bare):
         words = "must be a number [{unit}] in digits, such as {example}"
         raise InvalidValue(name, words, got=Given(text), unit=unit, example=EXAMPLES[unit])
-    if power:
-        bare = format(Decimal(bare).scaleb(power), "f")
+    if size:
+        bare = format(Decimal(bare).scaleb(size.adjusted()), "f")
     return bare, [note("read_as", number=bare), *notes] if notes else []
