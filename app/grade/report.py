@@ -258,7 +258,7 @@ def _graded(name: str, data: bytes, budget: Budget) -> FileAnswer:
         raise UnreadableTable(note("no_workbook") if has_workbook_ending and not data.startswith(ZIP) else known)
     workbook = workbook_of(tables, PurePath(name).stem)
     decimals = decimals_of_file([table.values for table in tables])
-    judgements, own = judged_by_turn([judged(table, workbook, decimals) for table in tables], decimals)
+    judgements, own = judged_by_turn([judged(table, workbook, decimals) for table in tables], decimals, budget)
     findings = diagnosed(judgements, budget)
     judgements = with_errors(judgements, {kind for one in findings for kind in one.kinds})
     certain = [one for one in findings if one.chance <= CERTAIN]

@@ -22,7 +22,7 @@ from app.grade.geometry import Model, SheetClues
 from app.grade.judged import ARITHMETIC, ROUNDED, JudgedSheet, judged
 from app.grade.layout import TableKind
 from app.grade.words import Note, note
-from core import BenchDragonError, Dance, Spiral, Turn, first_contact
+from core import BenchDragonError, Budget, Dance, Spiral, Turn, first_contact
 from core.values import Floats
 
 # Longest time between two places over which the angle unwraps by itself [s], and fewest places of a coil.
@@ -157,13 +157,15 @@ def _unwrapped(times: Floats, places: Floats, radii: Floats, right: float) -> It
         yield np.asarray(angles + 2.0 * math.pi * np.round(turned / (2.0 * math.pi)))
 
 
-def judged_by_turn(judgements: list[JudgedSheet], decimals: int) -> tuple[list[JudgedSheet], Note | None]:
+def judged_by_turn(
+    judgements: list[JudgedSheet], decimals: int, budget: Budget
+) -> tuple[list[JudgedSheet], Note | None]:
     """The judgements by the turn that the team dances, with a note on it; as they are where that is the contest's, or
-    an impossible one, or no turn fits. decimals: of the numbers of the file"""
+    an impossible one, or no turn fits. decimals: of the numbers of the file; raises: Halted if the budget is stopped"""
     position = next((one for one in judgements if one.table.kind is TableKind.POSITION), None)
     if position is None or position.workbook is not Workbook.RESULT4 or not position.is_off:
         return judgements, None
-    path = own_turn(position)
+    path = own_turn(position, budget)
     if path is None:
         return judgements, None
     with suppress(BenchDragonError):
@@ -173,7 +175,7 @@ def judged_by_turn(judgements: list[JudgedSheet], decimals: int) -> tuple[list[J
         if near.wrong > (1.0 - SHARE) * np.isfinite(near.off).sum():
             return judgements, None
         values = {"entry": f"{path.entry_radius:.7g}", "exit": f"{path.exit_radius:.7g}", "ratio": f"{path.ratio:.6g}"}
-        touching = first_contact(dance)
+        touching = first_contact(dance, budget=budget)
         if touching.time is not None and touching.benches is not None:
             a, b = touching.benches
             return judgements, note("own_turn_touches", **values, a=a, b=b, time=f"{touching.time:.3f}")
@@ -181,7 +183,7 @@ def judged_by_turn(judgements: list[JudgedSheet], decimals: int) -> tuple[list[J
     return judgements, None
 
 
-def own_turn(one: JudgedSheet) -> Turn | None:
+def own_turn(one: JudgedSheet, budget: Budget) -> Turn | None:
     """The turn on the contest's coils, but for its entry, ratio and exit, that the head's places show; None if another
     path does, or the contest's turn."""
     head = np.flatnonzero(one.handles == 0)
@@ -199,6 +201,7 @@ def own_turn(one: JudgedSheet) -> Turn | None:
 
     def all_off(numbers: Floats) -> Floats:
         """Distances (T, H, 2) of all places, those of slips cut short [m]."""
+        budget.look()
         motion = of_dance(Dance(one.dance.dragon, _turn(numbers), one.dance.head_speed))
         far = motion(one.times)[:, one.handles[one.known], :2] - one.values[:, one.known, :2]
         return np.clip(np.nan_to_num(far), -FAR, FAR)

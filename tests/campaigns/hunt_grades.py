@@ -214,10 +214,9 @@ def path_fault(random):
         what = f"entry {entry}, ratio {ratio}"
     values = np.round(of_dance(dance)(np.minimum(times, dance.end.time)), decimals)
     kinds = [TableKind.POSITION, TableKind.SPEED]
-    judgements, own = judged_by_turn(
-        [judged(table_of(kind, times, values), workbook, decimals) for kind in kinds], decimals
-    )
-    names = [one.error for one in diagnosed(judgements, Budget())]
+    budget, sheets = Budget(), [judged(table_of(kind, times, values), workbook, decimals) for kind in kinds]
+    judgements, own = judged_by_turn(sheets, decimals, budget)
+    names = [one.error for one in diagnosed(judgements, budget)]
     is_fine = names == wanted and (
         workbook is Workbook.RESULT1 or (own is not None and not sum(one.wrong for one in judgements))
     )
