@@ -93,7 +93,7 @@ def shortest_turn(request: ShortestTurnQuery | ShortestTurnRequest, terms: Terms
         ratio = None if request.any_ratio else request.ratio
         result = core.shortest_turn(dragon, *circle, ratio, **about, budget=terms.budget)
         own = {"benches": None, "time": None, "scan_step": 0.0}
-    on_circle = core.Turn(*circle, result.turn.ratio).length
+    on_circle = core.Turn(*circle, result.turn.ratio, start_turns=request.start_turns).length
     sentences = [
         turn_words(result.turn),
         say("With both ends on the circle every ratio gives {length:.6f} m.", length=on_circle),

@@ -125,8 +125,8 @@ REQUESTS = {
     ),
     "shortest-turn": (
         {"dragon": {"benches": 14, "head_length": 1.6, "body_length": 1.6}, "pitch": 1.2}
-        | {"margin": 0.1, "exit_opposite": True},
-        lambda: core.deepest_turn(Dragon(14, 1.6, 1.6), 1.2, margin=0.1),
+        | {"margin": 0.1, "exit_opposite": True, "turning_diameter": 40, "start_turns": 50},
+        lambda: core.deepest_turn(Dragon(14, 1.6, 1.6), 1.2, 20.0, margin=0.1, start_turns=50.0),
         "entry_bracket limited_by benches time evaluations turn.length",
     ),
     "tolerance": (
