@@ -22,7 +22,7 @@ import numpy as np
 from app.grade.judged import Rating
 from app.grade.words import word
 from core import InvalidValue
-from core.language import Listed
+from core.language import Listed, say
 from core.quantities import Given
 
 # What a rubric may state: the points of each workbook, and the share of them for right numbers with fewer decimals [1].
@@ -34,6 +34,8 @@ POINTS_MAX, DECIMALS = 1000.0, 1
 SHARED_LEAST, SHARED_SHARE = 3, 0.5
 # Most files with one number of which all are compared with each other.
 MANY = 8
+# Most files that a remark names.
+NAMED = 10
 
 
 @dataclass(frozen=True)
@@ -169,6 +171,14 @@ def _teams(group: Sequence[ClassRow]) -> int:
     return len({row.team for row in group})
 
 
-def names_of(group: Sequence[ClassRow]) -> str:
-    """The files, each with its team; empty for none."""
-    return str(Listed(f"{row.team}/{row.file}" for row in group)) if group else ""
+def names_of(group: Sequence[ClassRow], but: ClassRow | None = None) -> str:
+    """The files, each with its team, without one of them; of many the first ones."""
+    some = [row for row in group[: NAMED + 1] if row is not but][:NAMED]
+    names, more = str(Listed(f"{row.team}/{row.file}" for row in some)), len(group) - len(some) - (but is not None)
+    return say("{entries} and {count} more", entries=names, count=more) if more > 0 else names
+
+
+def names_beside(rows: Sequence[ClassRow], groups: Sequence[Sequence[ClassRow]]) -> list[str]:
+    """Of each row the files that are alike it, as names_of() has them: of the largest group that it is in."""
+    largest = {id(row): group for group in sorted(groups, key=len) for row in group}
+    return [names_of(largest[id(row)], row) if id(row) in largest else "" for row in rows]

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from app.files.tables import CSV_TYPE, XLSX_TYPE
 from app.files.workbooks import table_workbook
-from app.grade.class_table import ClassRow, names_of, points_of, remarks, rubric_of, rubric_text, team_points
+from app.grade.class_table import ClassRow, names_beside, points_of, remarks, rubric_of, rubric_text, team_points
 from app.grade.judged import Rating
 from app.grade.words import word
 from app.wire.fields import Answer, OneLine, Whole, Wire, measure
@@ -39,7 +39,6 @@ class GradedFile(Wire, strict=True):
     missing: Whole = Field(0, ge=0, le=CELLS_MAX, description="Number of those that are missing")
     finding: str = Field("", max_length=1_000, description="The error behind wrong cells, in words")
     digest: OneLine = Field("", max_length=128, description="Digest of its bytes, such as SHA-256; empty: not compared")
-
     unusual: list[Annotated[OneLine, Field(max_length=100)]] = Field(
         [],
         max_length=UNUSUAL_MAX,
@@ -92,6 +91,7 @@ def class_table(request: ClassTableRequest, terms: Terms, form: str) -> ClassTab
     rubric, rows = rubric_of(request.rubric), [one.to_row() for one in request.files]
     heads = [word(f"class_{name}") for name in COLUMNS]
     teams, notes = dict(team_points(rows, rubric)), remarks(rows)
+    beside = names_beside(rows, [group for group, _ in notes])
     table: list[list[str | int | float]] = [
         [
             row.team,
@@ -105,9 +105,9 @@ def class_table(request: ClassTableRequest, terms: Terms, form: str) -> ClassTab
             row.rounded,
             row.missing,
             teams[row.team],
-            names_of([one for group, _ in notes if row in group for one in group if one is not row]),
+            names,
         ]
-        for row, file in zip(rows, request.files, strict=True)
+        for row, file, names in zip(rows, request.files, beside, strict=True)
     ]
     if form == JSON:
         every: list[list[str | float]] = [[team, points] for team, points in teams.items()]
