@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from app.files.drawing import draw_areas, in_turn
 from app.files.film_labels import MARKED_SHARE, CornerText, Labels, LabelsBeside, NameLabels, numbered, size_of
-from app.files.film_planes import COLOURS, YUV, Canvas, Tone
+from app.files.film_planes import COLOURS, YUV, PicturePlanes, Tone
 from app.files.film_spec import MP4_TYPE, FilmSpec
 from app.files.fonts import families_for
 from app.files.looks import colour_of, with_square
@@ -234,7 +234,7 @@ class FilmPicture:
         # Here, because matplotlib draws for one thread at a time.
         self.time.prepare(DIGITS + self.words(spec.stop))
         self.canvas.draw()
-        self.paper = Canvas(np.asarray(self.canvas.buffer_rgba()), tones)
+        self.planes = PicturePlanes(np.asarray(self.canvas.buffer_rgba()), tones)
 
     def _look(self, low: Floats, high: Floats, spec: FilmSpec) -> None:
         """Show everything between two corners, at one scale for x and y that fills the frame."""
@@ -250,7 +250,7 @@ class FilmPicture:
         """Fill benches at outlines (N, 4, 2) [m]. line: width of the edges [pixels]"""
         if len(outlines):
             places = self.axes.transData.transform(outlines.reshape(-1, 2)).reshape(-1, 4, 2)
-            self.paper.fill(np.array([0.0, self.paper.height]) + np.array([1.0, -1.0]) * places, face, edge, line)
+            self.planes.fill(np.array([0.0, self.planes.height]) + np.array([1.0, -1.0]) * places, face, edge, line)
 
     def _layer(self, k: int, dragon: Dragon, spec: FilmSpec) -> DragonLayer:
         """What moves of a dragon."""
@@ -285,13 +285,13 @@ class FilmPicture:
         return [(dragons[0], a), (dragons[1], b)], words
 
     def frame(self, time: float, outlines: Sequence[Floats], *, is_last: bool = False) -> NDArray[np.uint8]:
-        """The picture, as Canvas.picture, at one instant [s].
+        """The picture, as PicturePlanes.picture, at one instant [s].
 
         outlines: (n, 4, 2) of each dragon [m]; is_last: mark and name the benches that touch then
         """
         touching, first = self.touching() if is_last else ([], "")
         wide, written = TOUCHING_SHARE * self.spec.height, list[Labels](self.names)
-        self.paper.begin()
+        self.planes.begin()
         for layer, own in zip(self.layers, outlines, strict=True):
             marked = widened(own[list(layer.words)], layer.wider)
             self.fill(own[1:], *layer.body, EDGE)
@@ -305,9 +305,9 @@ class FilmPicture:
             self.fill(np.stack([outlines[k][bench] for k, bench in touching]), VERMILION, "black", wide)
         self.time.text = first + self.words(time)
         for labels in written:
-            self.paper.lay(labels.placed)
-        self.paper.lay(self.time.placed)
-        return self.paper.picture
+            self.planes.lay(labels.placed)
+        self.planes.lay(self.time.placed)
+        return self.planes.picture
 
     def words(self, time: float) -> str:
         """The count, the clock as on the cards, and the time [s] of a picture."""

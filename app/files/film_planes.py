@@ -118,7 +118,7 @@ class PicturePlane:
         under[...] = mixed
 
 
-class Canvas:
+class PicturePlanes:
     """A picture on which benches and stamps are drawn again and again."""
 
     def __init__(self, still: Bytes, tones: tuple[Tone, ...]) -> None:

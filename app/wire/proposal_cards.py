@@ -40,7 +40,7 @@ class ProposalCard(Answer):
 
 @dataclass(frozen=True)
 class ProposalCards:
-    """ProposalCards of dances that were proposed together.
+    """Cards of dances that were proposed together.
 
     found: the dances; square: in which they are danced; gates: names of all gates; stray: that was asked for [m];
     ended: whether these are all of a search, so that what one has most of is said
