@@ -192,6 +192,8 @@ def solve(request: ContestRequest, terms: Terms, progress: Progress, question: i
     solved = Solved(request, spiral, None, terms.budget)
     for name in on_spiral:
         getattr(solved, name)
+    if not on_turn:
+        return solved
     try:
         path = request.to_turn()
         solved.turned = Turned(request, path, Dance(dragon, path, request.head_speed), terms.budget)

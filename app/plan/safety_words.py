@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
@@ -100,9 +101,11 @@ def _ground_words(answer: SafetySheet, spectators: float) -> list[str]:
 
 def _gate_words(answer: SafetySheet, performance: core.Performance, clock: TimeFormat) -> list[str]:
     several, lines = len(performance.parts) > 1, list[str]()
-    at = [(one.dragon, one.name) for one in answer.gates]
-    for k, one in enumerate(answer.gates):
-        earlier, count = at[:k].count(at[k]), at.count(at[k])
+    counts, passed = Counter((one.dragon, one.name) for one in answer.gates), Counter[tuple[int, str]]()
+    for one in answer.gates:
+        at = one.dragon, one.name
+        count, earlier = counts[at], passed[at]
+        passed[at] += 1
         if 0 < earlier < count - 1:
             continue
         words = say(
