@@ -294,9 +294,9 @@ def test_the_time_stands_in_the_lower_right_corner():
     dark = []
     for words in ("", "benches 3 and 9 touch\n1:23.0 (83.06 s)"):
         stage.time.text = words
-        stage.paper.begin()
-        stage.paper.lay(stage.time.placed)
-        dark.append(stage.paper.picture[..., 0] < 100)
+        stage.planes.begin()
+        stage.planes.lay(stage.time.placed)
+        dark.append(stage.planes.picture[..., 0] < 100)
     letters = np.argwhere(dark[1] & ~dark[0])
     assert len(letters) > 400
     assert np.abs(letters.max(axis=0) - (0.97 * 540, 0.985 * 960)).max() < 6.0
