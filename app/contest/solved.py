@@ -182,7 +182,7 @@ class Solved:
 def solve(request: ContestRequest, terms: Terms, progress: Progress, question: int | None = None) -> Solved:
     """The answers, of which those to a question are ready. question: None for all five
 
-    raises: InvalidValue, OutsideRun, TooMuchWork
+    raises: InvalidValue, also for a question about a turn where none can be danced; OutsideRun, TooMuchWork
     """
     dragon = request.to_dragon(terms.settings.checked_benches_max)
     spiral = Dance(dragon, request.to_path(), request.head_speed)
@@ -201,6 +201,8 @@ def solve(request: ContestRequest, terms: Terms, progress: Progress, question: i
             progress(k / len(on_turn))
             getattr(solved.turned, name)
     except InvalidValue as error:
+        if question is not None:
+            raise
         solved.turned, solved.why_no_turn = None, error.message
     progress(1.0)
     return solved

@@ -223,6 +223,8 @@ def test_an_english_archive_leads_to_no_figure_that_was_not_drawn(tmp_path, monk
         '{"overhang": 2} -> /overhang head_length',
         '{"language": "fr"} -> /language "en" "zh"',
         '{"folder": "kit"} -> /folder unknown',
+        # The files of a question about a turn that nobody can dance would say nothing.
+        '{"question": 5, "turning_diameter": 3} -> /path 2.86 1.432',
     ],
 )
 def test_a_kit_beyond_a_limit_is_refused_before_any_work(client, row):
