@@ -2,8 +2,9 @@
 
 import { canMirror, figured } from "./changes.js";
 import { hide, make, numberIn, textButton } from "./elements.js";
+import { announce } from "./overlays.js";
 import { extent } from "./square.js";
-import { phrase } from "./text.js";
+import { phrase, say } from "./text.js";
 import { walkText } from "./walk.js";
 
 const DEGREE = Math.PI / 180;
@@ -39,11 +40,13 @@ export class Figure {
     return this.editor.drawing;
   }
 
-  #set(field, { read, set, least, most }) {
+  #set(field, { words, read, set, least, most }) {
     const value = numberIn(field.value);
     const isRight = typeof value === "number" && value >= least && value <= most;
     field.setAttribute("aria-invalid", String(!isRight));
-    if (isRight) this.editor.steps.take(figured(this.#drawing, set(value, read(this.#drawing))));
+    if (isRight) return this.editor.steps.take(figured(this.#drawing, set(value, read(this.#drawing))));
+    const { value: text } = field;
+    announce(() => say("“{what}” must be a number from {low} to {high}; you typed “{text}”. The dance stays as it was.", { what: say(words), low: least, high: most, text }));
   }
 
   /** After a change of anything. */

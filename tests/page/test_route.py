@@ -253,6 +253,8 @@ def test_a_figure_is_moved_sized_turned_and_mirrored_as_a_whole_until_it_is_free
     person.drags(".grip.turn", 40, 0).presses("#mirror").sees(YES).settles()
     assert ",-3.14159265" in person.address()["walk"]
     # Its numbers are typed too.
+    person.types({"#figure [data-label^='Largest radius']": "0.1"}, "Tab")
+    person.sees({"#status": "“Largest radius of its bends [m]” must be a number from 0.5 to 1000; you typed “0.1”"})
     person.types({"#figure [data-label^='Largest radius']": "9", "#figure [data-label$='x [m]']": "0,5"}, "Tab")
     person.holds({"#figure [data-label$='x [m]']": "0.5"}).types({"#figure [data-label^='Direction']": "90"}).settles()
     start, _, bend, *_ = person.address()["walk"].split("_")
