@@ -9,9 +9,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
-from pydantic import BaseModel, Field
+from pydantic import Field
 
 import core
+from app.plan.assumptions import assumptions_of
 from app.plan.safety_answer import (
     Approach,
     Assumption,
@@ -46,7 +47,7 @@ from app.questions.plan import (
     passes_of_gates,
     timing_of_marks,
 )
-from app.wire.dances import PathFields, clock_of, starting
+from app.wire.dances import clock_of, starting
 from app.wire.degrees import Place
 from app.wire.fields import Address, OneLine, measure
 from app.wire.geojson import GATE, INNER_SQUARE, geometry_of
@@ -58,7 +59,7 @@ from core import Area, FailureKind, InvalidValue, Judgement, Part, Performance
 from core.language import joined, say
 from core.motion.places import Passing
 from core.motion.trajectory import trajectory
-from core.quantities import Parameter, format_bound, format_number
+from core.quantities import Parameter, format_bound
 from core.questions import question_about
 from core.shapes.engines import Polygons, area_of, free_width, holds_all, inside, merged, widened
 from core.shapes.reach import gains
@@ -71,8 +72,6 @@ if TYPE_CHECKING:
 
 # Most lanes of a sheet, and approaches that it lists.
 LANES_MAX, APPROACHES = 10, 5
-# Most dragons whose numbers of benches stand on a sheet.
-DRAGONS_NAMED = 6
 # Benches that may be let go if the request does not say how many.
 LOOSE = 3
 # Excess of the swept ground, and distance from which on two approaches of benches are at different places [m].
@@ -226,9 +225,7 @@ class _Judged:
             sentences=self.sentences(),
             start=self.start,
             stop=self.stop,
-            assumptions=assumptions_of(
-                request, [part.dance.dragon for part in self.performance.parts], self.inner is not None
-            ),
+            assumptions=self._assumptions(),
             approaches=self._approaches(),
             swept=Ground(ground=geometry_of(ground), area=area_of(ground), excess=max(one.excess for one in swept)),
             spectators=geometry_of(self.closed),
@@ -452,6 +449,11 @@ class _Judged:
                 gates.append(GatePass.between(k, name, head, tail))
         return gates
 
+    def _assumptions(self) -> list[Assumption]:
+        dragons = [part.dance.dragon for part in self.performance.parts]
+        loose = max(loose_of(self.request, dragon) for dragon in dragons)
+        return assumptions_of(self.request, dragons, loose, has_added_streets=self.inner is not None)
+
     def _leads_through(self, path: Any, s: float, within: float) -> bool:
         """True if a path that comes near a gate of the square at s leads into or out of the square there.
 
@@ -509,71 +511,6 @@ def _refuse_more_than(loose: int | None, dragons: Sequence[core.Dragon]) -> None
 def loose_of(request: SafetySheetRequest, dragon: core.Dragon) -> int:
     """Number of the last benches that may be let go."""
     return request.loose or min(LOOSE, dragon.benches)
-
-
-def assumptions_of(
-    request: SafetySheetRequest, dragons: Sequence[core.Dragon], has_added_streets: bool
-) -> list[Assumption]:
-    """What a sheet rests on, and which of it the request sets to another value than the default.
-
-    A page sends every field: a value that is the default may be one that nobody has thought of.
-    """
-    bodies: Sequence[PathFields] = request.dances or [request]
-    own = {name for one in bodies for name in _set_in(one.dragon)}
-    moves = {name for one in bodies for name in _set_in(one)}
-    given = _set_in(request)
-
-    def each(values: Sequence[float]) -> str:
-        """The value, or the least and the largest of several."""
-        low, high = format_number(min(values)), format_number(max(values))
-        return low if low == high else say("{low} to {high}", low=low, high=high)
-
-    lengths = [float(one) for dragon in dragons for one in dragon.lengths]
-    sizes = say("{low} to {high} m long", low=format_number(min(lengths)), high=format_number(max(lengths)))
-    speed = say("no limit") if request.speed_limit is None else f"{format_number(request.speed_limit)} m/s"
-    benches = " + ".join(str(dragon.benches) for dragon in dragons[:DRAGONS_NAMED])
-    if len(dragons) > DRAGONS_NAMED:
-        benches += " + …"
-    loose = max(loose_of(request, dragon) for dragon in dragons)
-    head_speed = f"{each([one.head_speed for one in bodies])} m/s"
-    rows = [
-        (say("benches"), benches, bool(own & {"benches", "lengths", "csv"})),
-        (say("sizes of benches"), sizes, bool(own - {"benches", "names"})),
-        (say("speed of the head"), head_speed, bool(moves & {"head_speed", "passages", "beats"})),
-        (say("people stray at most"), _metres(request.total_stray or 0.0), bool(given & {"stray", "hole", "pin"})),
-        (say("benches keep apart"), _metres(request.margin), "margin" in given),
-        (say("speed limit"), speed, "speed_limit" in given),
-        *_ground_rows(request.venue is not None, has_added_streets),
-        (say("people stand back"), _metres(request.spectators), "spectators" in given),
-        (say("last benches that may be let go"), str(loose), "loose" in given),
-        (say("time to stop"), f"{format_number(request.reaction)} s", "reaction" in given),
-    ]
-    return [Assumption(label=label, text=text, yours=yours) for label, text, yours in rows]
-
-
-def _set_in(body: BaseModel) -> set[str]:
-    """Names of the fields that a request sets to another value than their default."""
-    fields = type(body).model_fields
-    return {
-        name
-        for name in body.model_fields_set
-        if getattr(body, name) != fields[name].get_default(call_default_factory=True)
-    }
-
-
-def _metres(value: float) -> str:
-    return f"{format_number(value)} m"
-
-
-def _ground_rows(has_venue: bool, has_added_streets: bool) -> list[tuple[str, str, bool]]:
-    """What a sheet rests on of the venue: nobody has drawn the streets that were added to it for a dance."""
-    if not has_added_streets:
-        drawn = say("as drawn") if has_venue else say("none given")
-        return [(say("square, streets and obstacles"), drawn, has_venue)]
-    return [
-        (say("square and obstacles"), say("as drawn"), True),
-        (say("streets beyond the gates"), say("added for the dance, to be measured"), False),
-    ]
 
 
 def _cost(request: SafetySheetRequest, form: str = JSON) -> float:
