@@ -122,7 +122,7 @@ export function copied(drawing, thing) {
 }
 
 /** A thing turned about the middle of its points [rad], and scaled from there [1]. */
-export function turned(drawing, item, angle, scale = 1) {
+export function turned(drawing, item, angle = 0, scale = 1) {
   const thing = drawing.things[item];
   const [x, y] = extent(thing.points).middle;
   const [c, s] = [scale * Math.cos(angle), scale * Math.sin(angle)];

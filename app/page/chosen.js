@@ -9,6 +9,7 @@ import { decimetres } from "./touch.js";
 const ASIDE = 40;
 
 export class Chosen {
+  tool = "path";
   /** True if taps draw. */
   active = false;
   /** The edited item: null for the path, else the number of a thing. */
@@ -77,6 +78,7 @@ export class Chosen {
 
   /** Choose nothing. */
   leave() {
+    if (this.tool === "photo") this.tool = "path";
     [this.item, this.others] = [null, []];
     this.chosen();
   }

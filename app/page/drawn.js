@@ -56,7 +56,7 @@ export class Drawn {
     this.steps = stepsOf(state);
     const course = () => (questions.course?.drawing === state.get("drawing") ? questions.course : null);
     this.editor = new Editor(dance, state, this.steps, course, () => this.show());
-    questions.isHeld = () => this.editor.base !== null;
+    questions.isHeld = () => this.editor.isDragging;
     const files = new Files(state, this.steps, service, questions, several);
     this.photo = new Photo(state, this.editor, () => this.#photographed());
     this.form = new RouteForm($("#route"), state, this.steps, this.editor, files, this.photo);

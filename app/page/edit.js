@@ -1,6 +1,6 @@
 /** Drawing on the picture: the points of one item are buttons to drag or to move by keys, and taps add points. */
 
-import { figured, inserted, isFigure, left, moved, placesOf, pointsOf, shiftedAll, withPoints } from "./changes.js";
+import { inserted, isFigure, left, moved, placesOf, pointsOf, shiftedAll, withPoints } from "./changes.js";
 import { Chosen } from "./chosen.js";
 import { LANE_RADIUS, THINGS, freeName, isLine, place, yardOf } from "./drawing.js";
 import { $, $$, SMALL_TYPE, inType, make, onClick } from "./elements.js";
@@ -25,7 +25,6 @@ const TREE_RADIUS = 0.5;
 const WALL_RADIUS = 0.15;
 
 export class Editor extends Chosen {
-  tool = "path";
   /** What a tap with the tool puts ready-made: {kind, name, radius or size}; null without. @type {any} */
   kit = null;
   /** Points between which a distance is measured, at most two [m]. @type {number[][]} */
@@ -81,9 +80,34 @@ export class Editor extends Chosen {
     return k >= 0 ? k : null;
   }
 
+  /** True while something is dragged. */
+  get isDragging() {
+    return Boolean(this.#drag?.far);
+  }
+
   /** The drawing before the drag that goes on; null without one. */
   get base() {
-    return this.#drag?.far ? this.#drag.base : null;
+    return this.isDragging && this.#drag.part === "drawing" ? this.#drag.base : null;
+  }
+
+  /** Where the photo lies, while it is moved; else null. */
+  get photo() {
+    return this.canEdit && this.tool === "photo" ? this.state.get("photo") : null;
+  }
+
+  /** The part of the state that is edited. */
+  get #part() {
+    return this.photo ? "photo" : "drawing";
+  }
+
+  get edited() {
+    return this.state.get(this.#part);
+  }
+
+  /** Replace what is edited. kind, before: as for steps.take() */
+  takes(changed, kind = null, before = null) {
+    const part = this.#part;
+    if (changed !== (before ?? this.edited)) this.steps.change({ [part]: changed }, kind, before && { [part]: before });
   }
 
   /** Draw with this tool from now on; a new obstacle begins with the next tap. kit: what a tap puts ready-made, or null */
@@ -177,7 +201,7 @@ export class Editor extends Chosen {
   #command(event) {
     if (!this.active || !this.isRoute || event.defaultPrevented || (event.target instanceof Element && event.target.matches("input, textarea, select"))) return;
     const key = event.key.toLowerCase();
-    if (key === "escape" && this.thing && !$$(":popover-open, dialog[open]").length) this.leave();
+    if (key === "escape" && (this.thing || this.photo) && !$$(":popover-open, dialog[open]").length) this.leave();
     else if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
     else if (key === "c" && this.thing && getSelection().isCollapsed) this.copy();
     else if (key === "v" && this.canPaste) this.paste();
@@ -235,7 +259,7 @@ export class Editor extends Chosen {
   /** A press on a thing, whatever the tool, takes this thing: it is edited, and moves with the pointer. */
   #seize(event) {
     if (!this.active || !this.isRoute || !event.isPrimary || (event.button && event.button !== 2)) return;
-    if (this.tool === "measure") return;
+    if (["measure", "photo"].includes(this.tool)) return;
     const item = this.#under(event.offsetX, event.offsetY);
     const isSeveral = (event.shiftKey || this.tool === "several") && !event.button;
     if (item === null && !isSeveral && this.hasFigure && !event.button && this.#onPath(event.offsetX, event.offsetY, false)) {
@@ -294,7 +318,7 @@ export class Editor extends Chosen {
 
   #hold({ pointerId: pointer, clientX, clientY }, drag) {
     this.dance.view.fitted = false;
-    this.#drag = { ...drag, pointer, from: [clientX, clientY], base: this.drawing, far: false };
+    this.#drag = { ...drag, pointer, from: [clientX, clientY], part: this.#part, base: this.edited, far: false };
   }
 
   #pull(event) {
@@ -312,7 +336,7 @@ export class Editor extends Chosen {
       drag.crosses = true;
       return;
     }
-    this.state.set({ drawing }, false);
+    this.state.set({ [drag.part]: drawing }, false);
   }
 
   /** The drawing with the dragged point where the pointer is: in line with its neighbours and in whole decimetres, with Alt as it is. */
@@ -329,7 +353,7 @@ export class Editor extends Chosen {
     const { scale } = this.dance.view;
     const by = [(event.clientX - from[0]) / scale, (from[1] - event.clientY) / scale];
     const rest = event.altKey ? by : decimetres(by);
-    return this.hasFigure ? figured(base, { by: rest }) : shiftedAll(base, this.items, rest);
+    return this.photo || this.hasFigure ? this.#grips.formed(base, "move", this.photo ? by : rest) : shiftedAll(base, this.items, rest);
   }
 
   /** True if the edited thing is an area whose sides cross. */
@@ -346,7 +370,7 @@ export class Editor extends Chosen {
       const items = [...new Set([...this.items, ...thingsWithin(this.drawing.things, this.dance.view, ...drag.corners)])];
       this.choose(items[0] ?? null, items.slice(1));
     } else if (drag?.k === "frame") this.leave();
-    else if (drag?.far) this.steps.take(this.drawing, null, drag.base);
+    else if (drag?.far) this.takes(this.edited, null, drag.base);
     else if (drag && typeof drag.k === "number" && this.#points.length > 1) announce(() => say("Point {k}: drag it, or delete it with ⌫. To add a point beside it, or to drag one that is a dot, enlarge the picture with + first.", { k: drag.k + 1 }));
   }
 
@@ -400,7 +424,7 @@ export class Editor extends Chosen {
 
   /** Handle the key that puts the next point without a pointer: it gets the focus, to be moved by arrow keys. */
   #next(event) {
-    if (["several", "measure"].includes(this.tool) || !this.active || !this.isRoute || event.key.toLowerCase() !== "n" || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (["several", "measure", "photo"].includes(this.tool) || !this.active || !this.isRoute || event.key.toLowerCase() !== "n" || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     event.stopPropagation();
     const { view } = this.dance;
@@ -429,6 +453,7 @@ export class Editor extends Chosen {
       this.choose(item);
       return true;
     }
+    if (this.tool === "photo") return true;
     if (this.tool === "measure") {
       this.measured = [...(this.measured.length < 2 ? this.measured : []), this.dance.view.toWorld(px, py)];
       this.chosen();

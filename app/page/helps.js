@@ -13,6 +13,7 @@ const HELPS = {
   lane: "Tap along the middle of a lane that stays free, such as one for ambulances; its radius is half of its width. The safety sheet says when benches are in it.",
   several: "Tap things one after another, or drag a frame around them; then drag, copy, align or remove them together. With Shift, any tool does so.",
   measure: "Tap two points: their distance stands between them.",
+  photo: "Drag the photo, or its handles; two fingers turn it and make it larger or smaller. Arrow keys do so on its handles, with Shift finer.",
   figure: "This path is a figure: drag it, or its handles, which turn it and make it larger or smaller. “Free it” makes points of it.",
   kit: "Tap where each of them stands; then drag its handles, or type its numbers beside it.",
   gate: "Tap the border: the dragon comes in or goes out there. Beyond it a straight street of about {length} m is added, as long as your dragon, which stands in it before or after the dance.",
@@ -23,5 +24,5 @@ const hasKeys = matchMedia("(pointer: fine)");
 /** What a tap draws with the tool. */
 export function helpOf({ kit, hasFigure, tool, state }) {
   const words = say(HELPS[kit ? "kit" : hasFigure ? "figure" : tool], { length: tool === "gate" ? streetLength(state) : "" });
-  return hasKeys.matches && tool !== "measure" && !hasFigure ? `${words}${say(" Keys: N puts the next point, arrows move it by 0.1 m, with Shift by 1 cm, Enter inserts one, Delete removes it.")}` : words;
+  return hasKeys.matches && !["measure", "photo"].includes(tool) && !hasFigure ? `${words}${say(" Keys: N puts the next point, arrows move it by 0.1 m, with Shift by 1 cm, Enter inserts one, Delete removes it.")}` : words;
 }

@@ -42,7 +42,7 @@ export class Menu {
 
   /** Open the menu, unless it is open, or what was pressed is being dragged. */
   #ask({ clientX, clientY }) {
-    if (!this.editor.base && !this.box.matches(":popover-open")) this.open(clientX, clientY);
+    if (!this.editor.isDragging && !this.box.matches(":popover-open")) this.open(clientX, clientY);
   }
 
   #end({ type, clientX, clientY }) {

@@ -1,7 +1,9 @@
 /** A photo or a plan behind the square: a file of the person's own, which stays on the device, with a scale from a measured distance. */
 
-import { $, hide, make, numberIn, textButton } from "./elements.js";
+import { $, button, hide, make, numberIn, textButton } from "./elements.js";
 import { announce } from "./overlays.js";
+import { Pause } from "./pending.js";
+import { addHands, carried, ringOf } from "./photo_place.js";
 import { extent } from "./square.js";
 import { phrase, say } from "./text.js";
 
@@ -9,8 +11,8 @@ import { phrase, say } from "./text.js";
 const [LARGEST, SIDE, WIDTH] = [50_000_000, 4_096, 60];
 /** Where a device keeps it. */
 const [STORE, KEY] = ["bench-dragon-photo", "photo"];
-/** Largest distance between two points of it [m]. */
-const FAR = 10_000;
+/** Largest distance between two points of it [m]; rest after which a device keeps a new place [ms]. */
+const [FAR, REST] = [10_000, 300];
 
 /** The store of this device. */
 const openStore = () =>
@@ -41,19 +43,18 @@ export function refusalOf({ name, type, size }) {
   return null;
 }
 
-/** Place of a photo of which the distance of two points on the ground is known; the first of them stays. place: {x, y of its upper left corner, scale: [m] of a pixel} */
-export function scaled({ x, y, scale }, [[ax, ay], [bx, by]], metres) {
-  const times = metres / Math.hypot(bx - ax, by - ay);
-  return { x: ax + times * (x - ax), y: ay + times * (y - ay), scale: times * scale };
-}
+/** Degrees of an angle. */
+const DEGREE = Math.PI / 180;
 
 export class Photo {
-  /** {image, place}; null without. @type {any} */
-  #shown = null;
+  /** id -> {image, blob}. @type {Map<string, any>} */
+  #images = new Map();
   #isHidden = false;
+  #keeping = new Pause("photo");
 
   /**
    * changed(): called when it is shown or moved
+   * @param {State} state
    * @param {Editor} editor
    * @param {() => void} changed
    */
@@ -62,15 +63,22 @@ export class Photo {
     this.editor = editor;
     this.changed = changed;
     this.input = make("input", { type: "file", id: "photo-file", accept: "image/*", hidden: true, "data-label": phrase("Photo or plan …"), onchange: () => this.#take() });
-    const metres = make("input", { id: "photo-metres", inputMode: "decimal", autocomplete: "off", "data-label": phrase("Distance of the two points [m]"), onchange: ({ target }) => this.#measured(target) });
-    this.metres = metres;
-    // Near the fingers that have measured.
-    this.size = make("p", { id: "photo-size", hidden: true }, make("label", { htmlFor: metres.id, "data-text": phrase("On the ground these are") }), " ", metres, make("span", { "data-text": phrase("m apart.") }));
-    $("#stage").append(this.size);
+    const field = (id, words, act) => make("input", { id, inputMode: "decimal", autocomplete: "off", "data-label": words, onchange: ({ target }) => this.#typed(target, act) });
+    const text = (words) => make("span", { "data-text": words });
+    this.metres = field("photo-metres", phrase("Distance of the two points [m]"), (metres) => metres > 0 && metres <= FAR && this.#measured(metres));
+    this.angle = field("photo-angle", phrase("Turned to the left by [°]"), (angle) => Math.abs(angle) <= 360 && { angle: angle * DEGREE - this.#place.angle });
+    this.wide = field("photo-wide", phrase("Width on the ground [m]"), (wide) => wide > 0 && wide <= FAR && { scale: wide / this.#wide });
+    // Near the fingers that have measured or moved it.
+    this.size = make("p", { id: "photo-size", hidden: true }, text(phrase("On the ground these are")), this.metres, text(phrase("m apart.")));
+    const done = button({ textContent: "✓", "data-label": "Leave the photo (Escape)" }, () => editor.leave());
+    this.moving = make("p", { id: "photo-moving", hidden: true }, "∠ ", this.angle, " ° · ↔ ", this.wide, " m ", done);
+    $("#stage").append(this.size, this.moving);
     this.hint = make("span", { className: "hint", "data-text": phrase("The photo has its scale from two points of which you know the distance.") });
     this.toggle = textButton("Hide it", () => this.#show(!this.#isHidden), { id: "photo-hide" });
-    const measure = textButton("Measure", () => this.#measure(), { id: "photo-measure" });
-    this.line = make("p", { className: "buttons", id: "photo", hidden: true }, this.hint, measure, this.toggle, textButton("Remove", () => this.#remove(), { id: "photo-remove" }));
+    const tools = [textButton("Measure", () => this.#begin("measure"), { id: "photo-measure" }), textButton("Move and turn", () => this.#begin("photo"), { id: "photo-move" })];
+    this.line = make("p", { className: "buttons", id: "photo", hidden: true }, this.hint, ...tools, this.toggle, textButton("Remove", () => this.#remove(), { id: "photo-remove" }));
+    addHands(editor);
+    state.listen((names) => names.has("photo") && this.#placed());
     this.#restore();
   }
 
@@ -79,31 +87,53 @@ export class Photo {
     return [textButton("Photo or plan …", () => this.input.click(), { id: "photo-open" }), this.input, this.line];
   }
 
+  get #place() {
+    return this.state.get("photo");
+  }
+
+  /** What is seen of it; undefined without. */
+  get #image() {
+    return this.#images.get(this.#place?.id);
+  }
+
+  get #isShown() {
+    return Boolean(this.#image) && !this.#isHidden;
+  }
+
+  /** Width on the ground [m]. */
+  get #wide() {
+    return this.#place.scale * this.#place.width;
+  }
+
   /** Corners on the ground [m]. */
   get corners() {
-    if (!this.#shown || this.#isHidden) return [];
-    const { image, place: { x, y, scale } } = this.#shown;
-    return [[x, y], [x + scale * image.width, y - scale * image.height]];
+    return this.#isShown ? ringOf(this.#place) : [];
   }
 
   /** Draw it below all else. */
   draw({ context }) {
-    if (!this.#shown || this.#isHidden) return;
-    const { image, place: { x, y, scale } } = this.#shown;
+    if (!this.#isShown) return;
+    const { x, y, scale, angle } = this.#place;
     context.save();
     context.translate(x, y);
+    context.rotate(angle);
     context.scale(scale, -scale);
-    context.drawImage(image, 0, 0);
+    context.drawImage(this.#image.image, 0, 0);
     context.restore();
   }
 
-  /** After a change of what is measured. */
+  /** After a change of what is edited. */
   show() {
-    const { measured } = this.editor;
+    const { measured, photo } = this.editor;
     const isMeasured = measured.length === 2;
-    hide(this.line, !this.#shown);
-    hide(this.size, !isMeasured || !this.corners.length);
-    if (isMeasured && document.activeElement !== this.metres) this.metres.value = this.editor.distance.toFixed(2);
+    hide(this.line, !this.#image);
+    hide(this.size, !isMeasured || !this.#isShown);
+    hide(this.moving, !photo);
+    const put = (field, value) => document.activeElement !== field && (field.value = value);
+    if (isMeasured) put(this.metres, this.editor.distance.toFixed(2));
+    if (!photo) return;
+    put(this.angle, String(Number((photo.angle / DEGREE).toFixed(1))));
+    put(this.wide, String(Number(this.#wide.toFixed(2))));
   }
 
   async #take() {
@@ -124,23 +154,30 @@ export class Photo {
     const points = this.state.get("drawing").things.flatMap((thing) => thing.points);
     const ground = points.length > 1 ? extent(points) : { width: WIDTH, height: 0, middle: [0, 0] };
     const scale = Math.max(ground.width / width, ground.height / height, 1 / width);
-    this.#shown = { image, place: { x: ground.middle[0] - (scale * width) / 2, y: ground.middle[1] + (scale * height) / 2, scale } };
-    this.#show(false);
-    this.#measure();
+    const id = String(Date.now());
+    this.#images.set(id, { image });
+    this.editor.steps.change({ photo: { id, x: ground.middle[0] - (scale * width) / 2, y: ground.middle[1] + (scale * height) / 2, scale, angle: 0, width, height } });
+    this.#begin("measure");
     announce(() => say("The photo stays on this device. Tap two points of it whose distance you know, and type the distance: that is its scale."), false, true);
-    await this.#keep();
+  }
+
+  /** After a change of its place: the device keeps it, or forgets it. */
+  #placed() {
+    this.changed();
+    this.#keeping.begin(REST, () => this.#keep());
   }
 
   async #keep() {
+    const [place, shown] = [this.#place, this.#image];
+    if (place && !shown) return;
     try {
-      const { image, place } = this.#shown;
-      const canvas = make("canvas", { width: image.width, height: image.height });
-      canvas.getContext("2d").drawImage(image, 0, 0);
-      this.#shown.blob ??= await new Promise((resolve) => canvas.toBlob(resolve, "image/jpeg", 0.85));
-      const { blob } = this.#shown;
-      await inStore("readwrite", (store) => store.put({ blob, place }, KEY));
+      if (!place) return await inStore("readwrite", (store) => store.delete(KEY));
+      const canvas = make("canvas", { width: place.width, height: place.height });
+      if (!shown.blob) canvas.getContext("2d").drawImage(shown.image, 0, 0);
+      shown.blob ??= await new Promise((resolve) => canvas.toBlob(resolve, "image/jpeg", 0.85));
+      await inStore("readwrite", (store) => store.put({ blob: shown.blob, place }, KEY));
     } catch {
-      announce(() => say("This browser has no room to keep the photo: it is shown until the page is closed."), false, true);
+      if (place) announce(() => say("This browser has no room to keep the photo: it is shown until the page is closed."), false, true);
     }
   }
 
@@ -148,9 +185,13 @@ export class Photo {
   async #restore() {
     try {
       const kept = await inStore("readonly", (store) => store.get(KEY));
-      if (!kept || this.#shown) return;
-      this.#shown = { ...kept, image: await createImageBitmap(kept.blob) };
-      this.#show(false);
+      if (!kept) return;
+      const image = await createImageBitmap(kept.blob);
+      // What was kept before a photo could be turned has no angle.
+      const place = { id: KEY, angle: 0, width: image.width, height: image.height, ...kept.place };
+      this.#images.set(place.id, { image, blob: kept.blob });
+      if (this.#place?.id !== place.id) this.state.set({ photo: place });
+      else this.changed();
     } catch {
       // A browser without such a store shows none.
     }
@@ -160,31 +201,38 @@ export class Photo {
     this.#isHidden = isHidden;
     Object.assign(this.toggle.dataset, { text: isHidden ? phrase("Show it") : phrase("Hide it") });
     this.toggle.textContent = say(this.toggle.dataset.text);
-    this.show();
+    if (isHidden && this.editor.photo) this.editor.leave();
     this.changed();
   }
 
-  #measure() {
+  /** Measure the photo, or move it: by keys at once, from the button in its middle. */
+  #begin(tool) {
+    this.#show(false);
     this.editor.turn(true);
-    this.editor.take("measure");
+    this.editor.take(tool);
     $("#dance").scrollIntoView({ block: "nearest" });
+    if (tool === "photo") $(".grip.move").focus({ preventScroll: true });
   }
 
-  #measured(field) {
-    const metres = numberIn(field.value);
-    const isRight = metres > 0 && metres <= FAR;
-    field.setAttribute("aria-invalid", !isRight);
-    if (!isRight) return;
-    this.#shown.place = scaled(this.#shown.place, /** @type {[[number, number], [number, number]]} */ (this.editor.measured), metres);
+  /** Change it by a typed number. act(number): the change, or false for a number that it cannot have */
+  #typed(field, act) {
+    const number = numberIn(field.value);
+    const change = typeof number === "number" && act(number);
+    field.setAttribute("aria-invalid", !change);
+    if (change) this.editor.steps.change({ photo: carried(this.#place, { about: extent(ringOf(this.#place)).middle, ...change }) });
+  }
+
+  /** The change after which the measured points are so far apart [m]; the first of them stays. */
+  #measured(metres) {
+    const { measured: [about], distance } = this.editor;
     this.editor.take("measure");
-    this.#show(false);
-    this.#keep();
+    return { about, scale: metres / distance };
   }
 
   /** The photo is away only when the device has forgotten it, so that no reload brings it back. */
   async #remove() {
     await inStore("readwrite", (store) => store.delete(KEY)).catch(() => {});
-    this.#shown = null;
-    this.#show(false);
+    this.editor.steps.change({ photo: null });
+    this.editor.leave();
   }
 }

@@ -21,8 +21,8 @@ export const EXTRAS = ["csv", "passages", "beats", "start_clock", "begin_clock"]
 const NUMBERS = Object.fromEntries([...FIELDS.map(({ name, value }) => [name, value]), ...EXTRAS.map((name) => [name, ""])]);
 /** True if the address has nothing except the language: then the page opens with the dance in motion. */
 const isBare = (address) => [...address.keys()].every((name) => name === "lang");
-/** time: null is the end of the dance; ends, laps: when a proposed dance must end, and how often it goes around, as typed; dances: those of several dragons, as in an address; dragon: the chosen one; bench: the one that a carrier follows, or null; view: [x, y, pixels per metre], null shows the whole path. */
-export const DEFAULTS = { ...NUMBERS, door: null, drawing: EMPTY, path: "spiral", time: null, rate: 20, follow: false, handle: null, bench: null, ends: "", laps: "", dances: "", dragon: 0, view: null, lang: null };
+/** photo: where a photo behind the square lies, or null, which stays on the device; time: null is the end of the dance; ends, laps: when a proposed dance must end, and how often it goes around, as typed; dances: those of several dragons, as in an address; dragon: the chosen one; bench: the one that a carrier follows, or null; view: [x, y, pixels per metre], null shows the whole path. */
+export const DEFAULTS = { ...NUMBERS, door: null, drawing: EMPTY, photo: null, path: "spiral", time: null, rate: 20, follow: false, handle: null, bench: null, ends: "", laps: "", dances: "", dragon: 0, view: null, lang: null };
 
 const whole = (text) => (/^\d+$/.test(text) ? Number(text) : null);
 const oneOf = (values) => (text) => values.find((value) => String(value) === text);
@@ -82,6 +82,7 @@ export class State {
     if (!address.has("passages") && values.beats) Object.assign(values, paceTexts({ beats: beatsIn(values.beats) }));
     if (!beatsOf(values)) values.beats = "";
     for (const name of ["csv", "dances"]) if (history.state?.[name]) values[name] = history.state[name];
+    values.photo = history.state?.photo === undefined ? this.#values.photo : history.state.photo;
     values.drawing = history.state?.drawing ?? (PARTS.some((name) => address.has(name)) ? fromAddress(address) : EMPTY);
     // Behind this door stand drawn dances alone.
     if (values.door === "village" && !address.has("path")) values.path = "route";
@@ -159,7 +160,7 @@ export class State {
 
   write() {
     this.#writing.end();
-    const { drawing, csv, dances, ...others } = this.#values;
+    const { drawing, csv, dances, photo, ...others } = this.#values;
     // An address without anything is that of the doors.
     const rest = Object.keys(others).every((name) => name === "lang" || others[name] === this.initial(name));
     const query = new URLSearchParams(rest && !csv && !dances ? { door: "all" } : {});
@@ -176,6 +177,6 @@ export class State {
     if (isDrawn) for (const [name, text] of toAddress(drawing)) query.set(name, text);
     this.fits = query.toString().length <= ADDRESS_MOST;
     const text = (this.fits ? query.toString() : withoutDrawing).replace(/%(?:2C|7E|21|3A|40)/g, decodeURIComponent);
-    history.replaceState(this.fits ? null : { drawing, csv, dances }, "", location.pathname + (text && `?${text}`));
+    history.replaceState({ photo, ...(!this.fits && { drawing, csv, dances }) }, "", location.pathname + (text && `?${text}`));
   }
 }

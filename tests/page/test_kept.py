@@ -46,8 +46,8 @@ PROJECTS = {
 }
 # How the page is looked at, which no file holds.
 VIEW = {"time": "2", "rate": "5", "follow": "true", "handle": "3", "view": "1,2,9", "lang": "zh", "door": "all"}
-# Who is followed or chosen, and the drawing as a whole; then numbers that a dance on a drawn path has not.
-ELSEWHERE = {"bench", "dragon", "drawing", "speed_limit"}
+# Who is followed or chosen, the drawing as a whole, and a photo; then numbers that a dance on a drawn path has not.
+ELSEWHERE = {"bench", "dragon", "drawing", "photo", "speed_limit"}
 OF_SEVERAL = {"pitch", "start_turns", "turning_diameter", "ratio", "entry_radius", "exit_radius"}
 NAMES = """async () => {
   const [{ DEFAULTS }, { PARTS }] = [await page("state.js"), await page("drawing.js")];

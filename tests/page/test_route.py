@@ -1,6 +1,7 @@
 """A dance drawn on the picture by mouse, touch and keys: its verdict, its address and its files."""
 
 import json
+import math
 import re
 from io import BytesIO
 
@@ -206,8 +207,45 @@ def test_a_photo_stays_behind_the_square_on_the_device_with_the_scale_of_a_measu
     person.page.reload()
     person.settles().sees({"#photo": True}).presses("#photo-hide").settles()
     assert person.coloured("#804020") == 0
-    person.presses("#photo-hide", "#photo-remove").sees({"#photo": False}).page.reload()
+    _a_photo_is_moved_turned_and_sized_by_fingers_keys_and_numbers(person.presses("#photo-hide"))
+    person.presses("#photo-remove").sees({"#photo": False}).page.reload()
     person.settles().sees({"#photo": False})
+
+
+def _a_photo_is_moved_turned_and_sized_by_fingers_keys_and_numbers(person):
+    def place():
+        return person.settles().ask("history.state.photo")
+
+    before = place()
+    box = person.presses("#photo-move").sees({".grip": 3, "#photo-moving": True}).box("#canvas")
+    assert person.findings() == []
+    expect(person.at(".grip.move")).to_be_focused()
+    x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]
+    person.strikes("ArrowRight", "Shift+ArrowUp")
+    steps = [place()]
+    assert (steps[0]["x"] - before["x"], steps[0]["y"] - before["y"]) == pytest.approx((0.1, 0.01))
+    person.swipes(x + 20, y + 30, 40, 0)
+    steps.append(place())
+    assert steps[1]["x"] > steps[0]["x"]
+    assert steps[1]["y"] == pytest.approx(steps[0]["y"])
+    # Two fingers a quarter of a turn about the first, which stays, to half the distance.
+    person.pinches([(x, y, 0, 0), (x + 80, y, -80, -40)])
+    steps.append(place())
+    assert steps[2]["angle"] == pytest.approx(math.pi / 2)
+    assert steps[2]["scale"] == pytest.approx(0.5 * steps[1]["scale"])
+    person.drags(".grip.turn", 40, 0)
+    steps.append(place())
+    person.types({"#photo-angle": "-12,5", "#photo-wide": "120"})
+    assert place()["angle"] == pytest.approx(math.radians(-12.5))
+    assert place()["scale"] * place()["width"] == pytest.approx(120)
+    person.types({"#photo-wide": "0"}).has("#photo-wide", aria_invalid="true")
+    # One gesture is one step, also after the page was loaded again.
+    person.page.reload()
+    person.settles().presses("#undo", "#undo")
+    for step in (*reversed(steps), before):
+        assert place() == step
+        person.presses("#undo")
+    person.presses("#redo")
 
 
 def test_the_verdict_follows_the_hand_and_a_line_says_what_its_change_has_done(open_page):

@@ -171,11 +171,15 @@ class Person:
 
     def swipes(self, x, y, dx, dy, rest=0.0):
         """Move a finger from a place by pixels. rest: how long it stays before it is lifted [ms]"""
+        self.pinches([(x, y, dx, dy)], rest)
+
+    def pinches(self, ways, rest=0.0):
+        """Move several fingers together, each from a place by pixels: (x, y, dx, dy)."""
         finger = self.page.context.new_cdp_session(self.page)
-        points = [[{"x": x + dx * k / 3, "y": y + dy * k / 3}] for k in range(4)]
-        for k, point in enumerate(points):
+        for k in range(4):
+            points = [{"x": x + dx * k / 3, "y": y + dy * k / 3, "id": n} for n, (x, y, dx, dy) in enumerate(ways)]
             kind = "touchMove" if k else "touchStart"
-            finger.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": point})
+            finger.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
         self.page.wait_for_timeout(rest)
         finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
         self.settles()

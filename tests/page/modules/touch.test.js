@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import * as changes from "../../../app/page/changes.js";
 import { EMPTY } from "../../../app/page/drawing.js";
-import { scaled } from "../../../app/page/photo.js";
+import { carried, ringOf } from "../../../app/page/photo_place.js";
 import { nearestLeg, squared, thingUnder } from "../../../app/page/touch.js";
 
 const THINGS = [
@@ -64,8 +64,11 @@ test("things come into a row with the first of them, and have equal gaps; a squa
   assert.deepEqual([things[0].points[0], things[2].points, things[3].points], [[2, 1], [[21, 10]], [[2, 9]]]);
 });
 
-test("a photo has the scale of a measured distance, and its first point stays", () => {
-  assert.deepEqual(scaled({ x: -10, y: 20, scale: 0.1 }, [[0, 10], [3, 14]], 10), { x: -20, y: 30, scale: 0.2 });
+test("a photo is turned and scaled about a point that stays, and keeps its right angles", () => {
+  const place = { x: -10, y: 20, scale: 0.1, angle: 0, width: 80, height: 60 };
+  assert.deepEqual(carried(place, { about: [0, 10], scale: 2 }), { ...place, x: -20, y: 30, scale: 0.2 });
+  const turned = ringOf(carried(place, { about: [-10, 20], angle: Math.PI / 2, by: [1, 2] }));
+  assert.deepEqual(turned.map((corner) => corner.map(Math.round)), [[-9, 22], [-9, 30], [-3, 30], [-3, 22]]);
 });
 
 test("a figure stays one: moved, turned, scaled and mirrored about its middle", () => {
