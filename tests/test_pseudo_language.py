@@ -63,6 +63,8 @@ def test_no_answer_file_or_refusal_of_the_service_is_english(pseudo_house, tmp_p
                 asked = {"json": example.body | more} if example.body else {"params": example.query | more}
                 said += WORDS.findall(client.request(*call.split(), **asked).text)
         files = [client.post(name, json=body, headers={"Accept": FORMS}) for name, body in SHEETS.items()]
-        for file in (*files, client.get("figures/contact.svg", params={"benches": 12})):
+        kinds = ("trajectory", "contact", "pitch-scan")
+        files += [client.get(f"figures/{kind}.svg", params={"benches": 12}) for kind in kinds]
+        for file in files:
             said.append(text_of(file.raise_for_status().content))
     assert left("\n".join(said)) == []

@@ -215,35 +215,10 @@ def test_a_value_that_check_would_refuse_is_no_silent_mistake(tmp_path, row):
         assert_refused_in_one_line(f'{command} {file} -> "{name}" is unknown here')
 
 
-@pytest.mark.parametrize(
-    "ends, options, times",
-    [
-        ("start = 430", "", [430, 431, 432]),
-        ("stop = 2", "", [0, 1, 2]),
-        ("start = 7\ntimes = [3]", "", [3]),
-        ("start = 7", "--start 20 --step 100", [20, 120, 220, 320]),
-        # The whole dragon is on this path after 6 s.
-        (WAYPOINTS, "--stop 10 --step 2", [6, 8, 10]),
-    ],
-)
-@pytest.mark.parametrize("command", ["trajectory", "clearance"])
-def test_instants_are_those_of_start_and_stop_in_the_file(tmp_path, command, ends, options, times):
-    file = tmp_path / "dance.toml"
-    file.write_text(ends)
-    assert json.loads(said(command, str(file), *options.split(), "--json"))["time"] == times
-
-
 @pytest.mark.parametrize("text", ['{"path": {"pitch": 0.5}}', "[path]\npitch = 0.5"], ids=["json", "toml"])
 def test_standard_input_is_json_or_toml(client, text):
     answer = client.get("/collision-time?pitch=0.5").raise_for_status().json()
     assert json.loads(said("collision-time", "-", "--json", text=text)) == answer
-
-
-@pytest.mark.parametrize("name", ["dance.toml", "dance.json"])
-def test_rectangles_are_asked_for_where_a_dance_is_given(tmp_path, name):
-    file = tmp_path / name
-    file.write_text("" if name.endswith("toml") else json.dumps(BODY))
-    assert_refused_in_one_line(f"overlaps {file} -> {file} must be JSON with benches ... check clearance")
 
 
 @pytest.mark.parametrize(

@@ -99,18 +99,6 @@ def test_four_cards_stand_on_a_sheet_with_fonts_and_marks_to_cut(ask):
     assert picture[y + 60 : -60, 60 : x - 60].min() == 255  # The last two places are empty.
 
 
-@pytest.mark.chinese_font
-def test_cards_are_written_in_chinese(ask):
-    text = text_of(ask, VILLAGE | FESTIVE | {"language": "zh", "last_bench": 1, "title": "元宵"}).replace(" ", "")
-    cues = (
-        "前面：无后面：1号（Wang）",
-        "起步，朝lindentree走。",
-        "约在65m标记处绕过well向左掉头。",
-        "停下，至19:45:50（16秒）。",
-    )
-    assert [words for words in (*cues, "元宵", "整场舞龙已检查：板凳互不相碰") if words not in text] == []
-
-
 def test_who_comes_near_without_being_abreast_is_met_where_it_is_nearest(ask):
     dance = CuesRequest.model_validate(VILLAGE).to_dance(24)
     near = [(card["bench"], met) for card in cards_of(ask, VILLAGE) for met in card["meetings"] if met["ahead"]]

@@ -73,12 +73,6 @@ def test_the_timeline_on_paper_names_everybody_and_every_change(ask, answer):
     assert words <= {*" ".join(sheets).split()}
 
 
-@pytest.mark.chinese_font
-def test_the_timeline_is_written_in_chinese(ask):
-    data = ask.file("crew", VILLAGE | PEOPLE | {"language": "zh"}, "application/pdf")
-    assert "谁在何时抬哪节板凳" in sheets_of(data)[0].replace(" ", "")
-
-
 def test_a_terminal_shows_who_is_where():
     text = json.dumps(VILLAGE | {"start_clock": "19:44:30", "at": 30})
     table = run("crew", "-", "--spares", "6", "--point", "6,-8", text=text).stdout

@@ -3,15 +3,13 @@
 import re
 import struct
 from concurrent.futures import ThreadPoolExecutor
-from functools import partial
 from xml.etree import ElementTree
 
 import pytest
 
 from app.files import figures
-from core import Area, Dance, Dragon, Spiral, Venue, first_contact, minimum_pitch
+from core import Dance, Dragon, Spiral, first_contact, minimum_pitch
 from core.design.pitch_scan import scan_near_minimum
-from core.language import speaking
 from tests.support.depth import some
 from tests.support.shared_dances import STREET
 
@@ -77,32 +75,6 @@ def test_contact_figure_of_two_alike_names_no_other(dance, near, named, other):
     words = texts(figures.contact_figure(dance, **near))
     assert named in words
     assert f"{other} of bench" not in words
-
-
-@pytest.mark.chinese_font
-def test_figures_in_chinese_have_no_english_word_left_and_the_same_numbers():
-    square = Venue(Area("bench 3", ([(-20, -20), (20, -20), (20, 20), (-20, 20), (-20, -20)],)))
-    small = Dance(SMALL, Spiral())
-    dances = [small, Dance(Dragon(5), Spiral(9.0, 3.0)), Dance(SMALL, Spiral(0.8)), Dance(Dragon(), Spiral(0.35))]
-    for dance in some(dances, 1):
-        for margin in (0.0, 0.05):
-            assert_translated(partial(figures.contact_figure, dance, margin=margin))
-    assert_translated(partial(figures.trajectory_figure, small, venue=square, time=20.0), "bench 3")
-    circle = {"turning_radius": 4.5, "start_turns": 16.0, "margin": 0.05}
-    eight = Dragon(8)
-    scanned = scan_near_minimum(eight, samples=5, **circle)
-    assert_translated(partial(figures.pitch_scan_figure, eight, scanned, **circle))
-
-
-def assert_translated(draw, kept=""):
-    """No word of English is left but units, axes and names; the same numbers stand in both."""
-    english = texts(draw())
-    with speaking("zh"):
-        chinese = texts(draw())
-    assert re.findall(r"[A-Za-z]{2,}", chinese.replace(kept, "")) == []
-    assert kept in chinese
-    numbers = [sorted(re.findall(r"\d+\.\d+", words)) for words in (english, chinese)]
-    assert numbers[0] == numbers[1]
 
 
 def test_pitch_scan_figure_marks_minimum_pitch_and_circle():

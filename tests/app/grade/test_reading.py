@@ -17,9 +17,8 @@ from core.language import speaking
 from tests.campaigns.libreoffice import FEW, SMALL
 from tests.support import students
 from tests.support.bombs import zipped
-from tests.support.depth import often, some
+from tests.support.depth import often
 from tests.support.students import (
-    ALL_CELLS,
     SPIRAL_TIMES,
     TURN_TIMES,
     by_xlsxwriter,
@@ -58,16 +57,6 @@ def by_pandas(sheets):
             frame = pandas.DataFrame([row[1:] for row in rows], [row[0] for row in rows], heads)
             frame.to_excel(book, sheet_name=title)
     return sink.getvalue()
-
-
-@pytest.mark.thorough
-@pytest.mark.parametrize("writer", some([by_xlsxwriter, by_openpyxl, by_pandas], 1))
-def test_workbooks_of_other_tools_are_right_in_all_cells(writer):
-    entries = [grade(writer(sheets), "upload") for sheets in three()]
-    assert [file.workbook for file in entries] == ["result1", "result2", "result4"]
-    sheets = [sheet for file in entries for sheet in file.sheets]
-    assert {sheet.verdict for sheet in sheets} == {"right"}
-    assert sum(sheet.right for sheet in sheets) == sum(sheet.cells for sheet in sheets) == ALL_CELLS
 
 
 @pytest.mark.parametrize("writer", [by_openpyxl, by_pandas, None], ids=["openpyxl", "pandas", "libreoffice"])
@@ -109,18 +98,6 @@ def with_part(name, content):
 
 def in_sheets(old, new):
     return lambda part, content: content.replace(old, new, 1) if part in SHEETS else content
-
-
-@pytest.mark.parametrize("decimals", [4, 1])
-def test_a_few_rounded_instants_are_incomplete_and_right_to_their_decimals(decimals):
-    times = SPIRAL_TIMES[:4]
-    sheet = grade(students.lines([part.round(decimals) for part in spiral(times)], times)).sheets[0]
-    assert sheet.verdict == "incomplete"
-    assert sheet.decimals == decimals
-    assert (
-        f"The 1,792 cells that have a number are right, rounded to {decimals} decimal{'s' * (decimals > 1)}."
-        in sheet.notes
-    )
 
 
 def trap(place, text, coding="utf-8"):

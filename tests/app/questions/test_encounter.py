@@ -11,7 +11,7 @@ from core import Outcome, encounter_check, first_encounter
 from tests.app.files.test_figures import texts
 from tests.conftest import ROOT
 from tests.support.asking import box, dance, json_like, written
-from tests.support.command import refusal, run, said
+from tests.support.command import refusal, run
 from tests.support.reference_encounters import CASES, performance_of
 
 EXAMPLE = str(ROOT / "examples" / "two_dragons.toml")
@@ -89,14 +89,6 @@ def test_a_file_of_several_dragons_is_no_file_of_one(tmp_path, command, held, wo
 # -- figures -------------------------------------------------------------------------------------------------
 
 
-def test_the_figure_shows_all_dragons_and_the_benches_that_meet(tmp_path):
-    svg = tmp_path / "two.svg"
-    said("encounter", EXAMPLE, "--figure", str(svg), aside=f"{svg}\n")
-    words = texts(svg.read_bytes())
-    for word in ("bench 3 of blue and bench 0 of red touch at 207.378361 s", "blue", "bench 0 of red", "x [m]"):
-        assert word in words
-
-
 @pytest.mark.parametrize(
     "kind, more, words",
     [
@@ -110,9 +102,3 @@ def test_the_figures_of_one_dance_take_several_in_both_languages(ask, kind, more
     drawn = texts(ask.file(f"figures/{kind}.svg", TWO | {"venue": box(-5, -30, 40, 30)} | more))
     assert words in drawn
     assert "square" in drawn
-
-
-@pytest.mark.chinese_font
-@pytest.mark.parametrize("kind, word", [("contact", "首次碰撞"), ("trajectory", "把手"), ("pitch-scan", "螺距")])
-def test_a_figure_of_one_dragon_has_the_language_of_its_request(ask, kind, word):
-    assert word in texts(ask.file(f"figures/{kind}.svg?benches=5&language=zh"))

@@ -43,17 +43,6 @@ def benches(answer):
     return times, motion, shapely.polygons(corners.reshape(-1, 4, 2)).reshape(corners.shape[:2])
 
 
-def test_the_nearest_approach_of_each_thing_is_that_of_the_check_with_every_bench_in_its_place(ask):
-    answer = ask("safety-sheet", BODY)["approaches"]
-    report = ask("check", {name: BODY[name] for name in ("dragon", "path", "venue", "margin", "speed_limit")})
-    known = [(one["nearest"], one["name"]) for one in report["venue"]["areas"]] + [(report["least_clearance"], None)]
-    known.sort(key=lambda pair: pair[0]["distance"])
-    names = ("distance", "at_least", "time")
-    for one, (nearest, area) in zip(answer, known, strict=True):
-        assert [one[name] for name in names] == [nearest[name] for name in names]
-        assert one["area"] == area
-
-
 def test_ground_lanes_gates_speed_and_stop_are_those_of_small_steps(ask):
     answer = ask("safety-sheet", BODY)
     times, motion, outlines = benches(answer)

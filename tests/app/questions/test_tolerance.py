@@ -6,7 +6,7 @@ import core
 from app.questions.tolerance import ToleranceRequest
 from app.settings import Settings
 from core import Dragon, tolerance
-from tests.support.asking import box, dance, json_like
+from tests.support.asking import dance, json_like
 
 SMALL = {"benches": 40, "start_turns": 9}
 DANCES = [dance(4, (0, 0), (30, 0), name="a"), dance(4, (30, 0.8), (0, 0.8), name="b")]
@@ -45,10 +45,3 @@ def test_several_dances_have_the_tolerance_of_each_and_of_all(ask):
     assert got["names"] == ["a", "b"]
     assert got["own"] == [one.stray for one in result.own]
     assert got["exhibit"]["handles"] == json_like(result.exhibit.handles)
-
-
-def test_a_wall_may_limit_several_dances(ask):
-    venue = {"venue": box(-10, -0.3, 40, 9)}
-    got = ask("tolerance", SEVERAL | venue)
-    assert got["stray"] == ask("tolerance", {name: DANCES[0][name] for name in ("dragon", "path")} | venue)["stray"]
-    assert (got["limited_by"], got["dragons"], got["benches"][1]) == ("venue", [0], None)

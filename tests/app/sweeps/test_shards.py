@@ -114,18 +114,6 @@ def test_the_row_of_a_table_is_what_the_table_says():
     assert alone["separation"] is None
 
 
-def test_a_bad_design_is_a_row_with_its_error_and_the_others_are_answered():
-    spec = spec_of(LAND, {"x": [1.0, 13.0, 14.0, 100.5, 2.0], "y": [3.0]}, shard_size=5)
-    result = table(ShardPiece.whole(spec, LAND, 0)).to_pydict()
-    assert result["height"] == [3.0, None, None, None, 6.0]
-    assert result["error.code"] == [None, "invalid-value", "internal-error", "invalid-value", None]
-    assert result["error.message"][1:4] == [
-        "x must not be 13 m",
-        "ZeroDivisionError: a mistake of ours",
-        "x must be at most 100 m, got 100.5 m: lengths are in metres, and 100.5 cm is 1.005 m",
-    ]
-
-
 def test_a_file_has_the_same_bytes_however_its_shard_was_cut(tmp_path):
     spec = spec_of(LAND, {"x": {"start": 0, "stop": 30, "count": 31}, "y": [2.0, -1.0]}, shard_size=62)
     whole = ShardPiece.whole(spec, LAND, 0)

@@ -42,11 +42,11 @@ def row_of(x, y, angle, length, width):
     return [x, y, np.cos(angle), np.sin(angle), length, width]
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(40))
 def test_a_pixel_is_mixed_by_the_part_of_it_that_is_covered(seed):
     rng = np.random.default_rng(seed)
     angle = rng.uniform(-4.0, 4.0) if seed % 3 else 0.5 * np.pi * rng.integers(-2, 3)
-    place = rng.uniform(5, 35), rng.uniform(5, 25), angle, rng.uniform(2.0, 12.0), rng.uniform(0.2, 4.0)
+    place = rng.uniform(-5, 45), rng.uniform(-5, 35), angle, rng.uniform(2.0, 12.0), rng.uniform(0.2, 4.0)
     line = rng.choice([0.0, 0.3, 0.6, 1.5])
     plane = filled([row_of(*place)], line)[..., 0]
     slow = by_areas(*place, line)
@@ -62,10 +62,3 @@ def test_a_later_rectangle_covers_an_earlier_one_and_all_channels_alike():
     assert plane[15, 16].tolist() == [4, 5, 6]
     assert np.array_equal(filled(rows)[:, 13:], filled(rows[1:])[:, 13:])
     assert filled(rows, 1.0, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]])[15, 27].tolist() == [4, 5, 6]
-
-
-@pytest.mark.parametrize("x", [-30.0, -3.0, 0.0, 40.0, 43.0, 90.0])
-@pytest.mark.parametrize("y", [-30.0, 0.0, 15.0, 30.0, 90.0])
-def test_a_rectangle_beyond_the_border_is_cut_there(x, y):
-    slow = by_areas(x, y, 0.7, 9.0, 3.0, 0.5)
-    assert np.abs(filled([row_of(x, y, 0.7, 9.0, 3.0)], 0.5)[..., 0] - slow).max() < NEAR_ASLANT
