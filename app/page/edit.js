@@ -168,7 +168,7 @@ export class Editor extends Chosen {
     $("#edit").setAttribute("aria-pressed", on);
     for (const button of $$("[data-tool]")) {
       button.hidden = !on;
-      button.setAttribute("aria-pressed", button.dataset.tool === (this.kit ? "kits" : this.tool));
+      button.setAttribute("aria-pressed", button.dataset.tool === (this.kit ? this.kit.tool ?? "kits" : this.tool));
     }
     $("[data-tool=gate]").disabled = !yardOf(this.drawing).length;
     $("#delete").hidden = !on;
@@ -511,13 +511,14 @@ export class Editor extends Chosen {
     if (kind === "gate" && !yardOf(drawing).length) return;
     const point = kind === "gate" ? onBorder(yardOf(drawing), wanted).point : wanted;
     const radius = { circle: TREE_RADIUS, wall: WALL_RADIUS, lane: LANE_RADIUS }[kind];
-    // Beside a way in, a second gate is the way out.
+    // The first of two gates is the way in and the second one the way out, unless the first one is a way out.
     const uses = kind === "gate" ? drawing.things.flatMap((one) => (one.kind === "gate" ? [one.use] : [])) : [];
-    const use = uses.length === 1 && { in: "out", out: "in" }[uses[0]];
+    const use = uses.length === 1 && (uses[0] === "out" ? "in" : "out");
+    const others = use && !uses[0] ? drawing.things.map((one) => (one.kind === "gate" ? { ...one, use: "in" } : one)) : drawing.things;
     const thing = { kind, name: freeName(drawing.things, say(THINGS[kind])), points: [], ...(radius && { radius }), ...(use && { use }) };
     [this.item, this.others] = [drawing.things.length, []];
     this.isDrawing = true;
-    this.steps.take(withPoints({ ...drawing, things: [...drawing.things, thing] }, this.item, [point]));
+    this.steps.take(withPoints({ ...drawing, things: [...others, thing] }, this.item, [point]));
   }
 
   /** Add the ready-made thing with its middle at this point, and choose it. */

@@ -5,9 +5,9 @@ import { $, button, make } from "./elements.js";
 import { phrase, say } from "./text.js";
 
 /** Names, and sizes: radius of what is round, width and depth of a block [m]; what has none is drawn along its middle. */
-const KITS = {
+export const KITS = {
   well: { kind: "circle", name: phrase("well"), radius: 1 },
-  fountain: { kind: "circle", name: phrase("fountain"), radius: 1.5 },
+  fountain: { kind: "circle", name: phrase("fountain"), radius: 1.5, tool: "fountain" },
   lamp: { kind: "circle", name: phrase("lamp"), radius: 0.15 },
   stage: { kind: "block", name: phrase("stage"), size: [8, 5] },
   stall: { kind: "block", name: phrase("stall"), size: [3, 2] },
@@ -36,8 +36,9 @@ export function addKits(editor) {
   });
   const box = make("div", { id: "kits", popover: "auto", "data-label": "Ready-made things" }, ...buttons);
   // While a person draws, it opens among the tools.
-  const opener = button({ "data-tool": "kits", "data-text": phrase("More things …"), popoverTargetElement: box, hidden: true });
+  const opener = button({ "data-tool": "kits", "data-text": phrase("More …"), popoverTargetElement: box, hidden: true });
   $("[data-tool=several]").before(opener);
+  $("[data-tool=circle]").after(button({ "data-tool": "fountain", "data-text": phrase("Fountain"), hidden: true }, choose(KITS.fountain)));
   box.addEventListener("beforetoggle", () => rows.forEach(({ kit, size }) => (size.textContent = sizeWords(kit))));
   $("#dance").append(box);
 }

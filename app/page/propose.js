@@ -9,6 +9,7 @@ import { EMPTY, THINGS, drawingOf, freeName, ownOf, venueOf, yardOf } from "./dr
 import { $, bearer, button, hide, make, numberIn, textButton } from "./elements.js";
 import { HINTS, LABELS, strayOf } from "./fields.js";
 import { helpOf } from "./helps.js";
+import { KITS } from "./kits.js";
 import { knotsOf } from "./knots.js";
 import { clockIn, secondsBetween } from "./passages.js";
 import { pending } from "./pending.js";
@@ -20,7 +21,8 @@ import { between, language, phrase, say, sentencesOf, writeTexts } from "./text.
 /** What may be put into a square. @type {Phrases} */
 const TOOLS = {
   gate: "Gate",
-  circle: "Tree, well",
+  circle: "Tree",
+  fountain: "Fountain",
   block: "Obstacle",
   area: "Square",
 };
@@ -30,9 +32,8 @@ const SHAPES = {
   l: { name: phrase("an L"), draw: lShape },
   t: { name: phrase("a T"), draw: tShape },
   u: { name: phrase("a U"), draw: uShape },
+  circle: { name: phrase("a circle"), draw: circle },
 };
-/** Those of which something is cut out. @type {[string, any][]} */
-const CUT = [["l", lShape], ["t", tShape], ["u", uShape]];
 /** What is cut from a square that is no rectangle, at first [m]. */
 const NOTCH = ["14", "10"];
 /** Size of a square before any is drawn [m], and the largest one. */
@@ -62,6 +63,7 @@ function stretched(drawing, ring, points) {
   const at = ([x, y]) => [after.middle[0] + ((x - before.middle[0]) * after.width) / before.width, after.middle[1] + ((y - before.middle[1]) * after.height) / before.height];
   return { ...drawing, things: drawing.things.map((thing) => (thing.kind === "gate" ? { ...thing, points: thing.points.map(at) } : thing)) };
 }
+const isDrawn = ({ points, path }) => points.length > 0 || Boolean(path);
 /** A number of minutes as people write it, perhaps with its unit. */
 const MINUTES = /^(\d+(?:[.,]\d+)?)\s*(\p{L}*)$/u;
 /** Longest and shortest time of a dance [s], and most times around [1], as in the service. */
@@ -86,6 +88,8 @@ export class Propose {
   /** What the cards show. */
   #drawn = null;
   #looking = Symbol("search");
+  /** True for a square that is one of the shapes. */
+  #shaped = false;
 
   /**
    * @param {any} box
@@ -108,12 +112,11 @@ export class Propose {
     const line = (...parts) => make("p", { className: "line" }, ...parts);
     const words = (text) => make("span", { "data-text": text });
     const unit = () => make("span", { textContent: "m" });
-    const size = (text, wide, high) => make("span", { className: "size" }, ...(text ? [words(text), " "] : []), wide, " × ", high, " m");
+    const size = (text, ...fields) => make("span", { className: "size" }, ...(text ? [words(text), " "] : []), ...fields.flatMap((one, k) => (k ? [" × ", one] : [one])), " m");
     this.sizes = [field(phrase("Width of the square"), { id: "place-width" }), field(phrase("Length of the square"), { id: "place-height" }), field(phrase("Diameter of the square"), { id: "place-diameter" })];
     const [width, height, diameter] = this.sizes;
     this.notch = [field(phrase("Width of what is cut out"), { id: "notch-width", value: NOTCH[0] }), field(phrase("Length of what is cut out"), { id: "notch-height", value: NOTCH[1] })];
-    this.shape = make("select", { id: "place-shape", "data-label": "Shape of the square", onchange: () => this.show() }, ...Object.entries(SHAPES).map(([value, { name }]) => make("option", { value, "data-text": name })));
-    const take = (id, label, draw) => textButton("Draw it", draw, { id, "data-label": label });
+    this.shape = make("select", { id: "place-shape", "data-label": "Shape of the square", onchange: () => this.#reshape() }, ...Object.entries(SHAPES).map(([value, { name }]) => make("option", { value, "data-text": name })));
     this.dragon = DRAGON.map((name) => field(LABELS[name], { onchange: ({ target }) => this.#setNumber(name, target) }));
     this.ends = field(phrase("It must end by"), { id: "ends", inputMode: "text", onchange: ({ target }) => this.steps.change({ ends: target.value.trim() }), "aria-describedby": "ends-wrong" });
     this.laps = field(phrase("Times around a ring or an eight"), { id: "laps", onchange: ({ target }) => this.steps.change({ laps: target.value.trim() }), "aria-describedby": "ends-wrong" });
@@ -126,10 +129,9 @@ export class Propose {
     this.cards = make("ol", { id: "cards" });
     this.corners = new Corners({ state, steps, editor }, (refused) => this.#tell(refused));
     const tools = Object.entries(TOOLS).map(([tool, words]) => textButton(words, () => this.#tool(tool), { "data-add": tool }));
-    tools.push(textButton("More things …", () => {}, { "data-add": "kits", popoverTargetElement: $("#kits") }));
+    tools.push(textButton("More …", () => {}, { "data-add": "kits", popoverTargetElement: $("#kits") }));
     box.append(
-      line(words(phrase("Our square is")), this.shape, size("", width, height), (this.cut = size(phrase("without"), ...this.notch)), take("take-rectangle", phrase("Draw it: the square by its size"), () => this.#drawShape())),
-      line(words(phrase("or a circle, across")), diameter, unit(), take("take-circle", phrase("Draw it: the circle"), () => this.#draw(circle, [diameter]))),
+      line(words(phrase("Our square is")), this.shape, (this.sides = size("", width, height)), (this.across = size("", diameter)), (this.cut = size(phrase("without"), ...this.notch)), textButton("Draw it", () => this.#draw(), { id: "take-shape", "data-label": "Draw it: the square by its size" })),
       (this.wrong = make("p", { className: "error", id: "place-wrong", role: "alert" })),
       (this.help = make("p", { className: "hint", id: "add-help", role: "status" })),
       (this.tools = make("p", { className: "buttons" }, ...tools)),
@@ -150,7 +152,7 @@ export class Propose {
     );
     for (const one of [...this.sizes, ...this.notch]) {
       one.addEventListener("input", () => (one.typed = true));
-      one.addEventListener("keydown", ({ key }) => key === "Enter" && (one === diameter ? this.#draw(circle, [diameter]) : this.#drawShape()));
+      one.addEventListener("change", () => this.#reshape());
     }
     // Where the dragon is typed in, a phone has no room for the tools and for the numbers of a thing. A button would move away under the finger.
     box.addEventListener("focusin", ({ target }) => editor.active && target.matches("input, select") && this.dragonLine.compareDocumentPosition(target) & (Node.DOCUMENT_POSITION_FOLLOWING | Node.DOCUMENT_POSITION_CONTAINED_BY) && editor.turn(false));
@@ -189,14 +191,18 @@ export class Propose {
     this.steps.change({ [name]: times(String(numberIn(target.value)), 1 / FACTORS[name]) });
   }
 
-  /** Draw the square of the chosen shape. */
-  #drawShape() {
-    const [fields, { draw }] = [this.sizes.slice(0, 2), SHAPES[this.shape.value]];
-    this.#draw(draw, draw === rectangle ? fields : [...fields, ...this.notch]);
+  /** After a change of the shape or of a size: draw it at once, unless that would take corners that a hand has put. */
+  #reshape() {
+    const drawing = this.#drawing;
+    if (!yardOf(drawing).length || isPresetVenue(drawing) || this.#shaped) this.#draw();
+    this.show();
   }
 
-  /** Draw the square by its size; what stands in it stays, and so does a path of one's own. */
-  #draw(shape, fields) {
+  /** Draw the square of the chosen shape by its size; what stands in it stays, and so does a path of one's own. */
+  #draw() {
+    const { draw: shape } = SHAPES[this.shape.value];
+    const sides = this.sizes.slice(0, 2);
+    const fields = shape === circle ? [this.sizes[2]] : shape === rectangle ? sides : [...sides, ...this.notch];
     const numbers = fields.map(({ value }) => numberIn(value));
     // What is cut out leaves a part on each side of it; a T loses it twice.
     const most = fields.map((_, k) => (k < 2 ? MOST : numbers[k - 2] / (k === 2 && shape === tShape ? 2 : 1)));
@@ -221,13 +227,12 @@ export class Propose {
     this.editor.edit(null);
     const beyond = drawing.things.filter((thing) => !["area", "gate", "lane"].includes(thing.kind) && isBeyond(thing, points)).map(({ name }) => name);
     this.#tell(beyond.length ? () => say("Outside the square now: {names}. They stay in the drawing; remove them in its list under “More numbers and answers”.", { names: beyond.join(between()) }) : null);
-    requestAnimationFrame(() => this.ask.scrollIntoView({ block: "nearest" }));
   }
 
   /** Let taps on the picture add things of this kind. */
   #tool(tool) {
     this.editor.turn(true);
-    this.editor.take(tool);
+    this.editor.take(KITS[tool]?.kind ?? tool, KITS[tool]);
     this.#tell(null);
     for (const one of [$("#dance"), this.help]) one.scrollIntoView({ block: "nearest" });
   }
@@ -273,6 +278,8 @@ export class Propose {
     }
     this.#search = null;
     this.changed();
+    // Without a path, the best dance is shown at once.
+    if (this.next === "choose" && !isDrawn(this.#drawing) && !this.state.get("dances")) this.#choose(0);
     if (!this.#answer?.proposals.length) this.words.scrollIntoView({ block: "nearest" }); // a reason has more lines
   }
 
@@ -411,7 +418,10 @@ export class Propose {
     }
     if (!isRoute) return;
     this.#showSizes(yardOf(drawing));
-    hide(this.cut, this.shape.value === "rectangle");
+    const isCircle = this.shape.value === "circle";
+    hide(this.sides, isCircle);
+    hide(this.across, !isCircle);
+    hide(this.cut, isCircle || this.shape.value === "rectangle");
     hide(this.wrong, !this.refusal);
     this.wrong.textContent = this.refusal?.() ?? "";
     this.help.textContent = this.editor.active ? helpOf(this.editor) : say("What is in it? Choose, then tap the picture.");
@@ -423,7 +433,7 @@ export class Propose {
     const { wrong, by } = this.#howLong;
     hide(this.endsWrong, !by);
     this.endsWrong.textContent = wrong;
-    this.ends.placeholder = say(this.state.get("begin_clock") ? "hh:mm" : "minutes");
+    this.ends.placeholder = say("19:50 or 20 min");
     for (const one of [this.ends, this.laps]) {
       one.setAttribute("aria-invalid", one === by);
       if (document.activeElement !== one) one.value = this.state.get(one.id);
@@ -449,11 +459,10 @@ export class Propose {
     const { width, height } = yard.length ? extent(yard) : { width: WIDTH, height: HEIGHT };
     if (yard !== this.sized) {
       // A square that was opened has its shape and its sizes here too, to be drawn again.
-      const known = yard.length > 4 && yard.length < 9 ? shapeOf(yard, CUT) : null;
-      if (known && !this.notch.some(({ typed }) => typed)) {
-        this.shape.value = known.name;
-        this.notch.forEach((one, k) => (one.value = String(known.cut[k])));
-      }
+      const known = yard.length ? shapeOf(yard, Object.entries(SHAPES).map(([name, { draw }]) => [name, draw])) : null;
+      this.#shaped = Boolean(known);
+      if (known) this.shape.value = known.name;
+      if (known?.cut.length && !this.notch.some(({ typed }) => typed)) this.notch.forEach((one, k) => (one.value = String(known.cut[k])));
       this.sized = yard;
     }
     // Only a round square has a diameter: the field keeps its number beside any other.

@@ -74,14 +74,14 @@ export function crossesItself(ring) {
   });
 }
 
-/** What a square of one of these shapes looks like as numbers: {name, cut: [width, length] of what is cut out}; null for another square. shapes: [name, draw] */
+/** What a square of one of these shapes looks like as numbers: {name, cut: [width, length] of what is cut out, or nothing}; null for another square. shapes: [name, draw] */
 export function shapeOf(ring, shapes) {
-  const { width, height, middle } = extent(ring);
-  const lengths = measures(ring, true).lengths.map(decimals);
+  const { width, height, middle } = /** @type {any} */ (extent(ring));
   const drawn = JSON.stringify(ring);
+  const lengths = ring.length > 8 ? [] : measures(ring, true).lengths.map(decimals);
   const cuts = lengths.flatMap((across) => lengths.map((deep) => [across, deep]));
   for (const [name, draw] of shapes) {
-    const cut = cuts.find((one) => JSON.stringify(draw(width, height, ...one, middle)) === drawn);
+    const cut = (draw === circle || draw === rectangle ? [[]] : cuts).find((one) => JSON.stringify(draw === circle ? circle(width, middle) : draw(width, height, ...one, middle)) === drawn);
     if (cut) return { name, cut };
   }
   return null;

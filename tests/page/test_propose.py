@@ -49,13 +49,16 @@ def corners(person):
 
 def test_from_nothing_to_a_certified_dance_on_a_phone(open_page):
     person = open_page("", reduced_motion="reduce", **PHONE).presses("#arrival [data-door=village]")
-    person.types({"#place-width": "30", "#place-height": "40"}, "Tab").presses("#take-rectangle")
+    # A square is drawn as its size is typed.
+    person.types({"#place-width": "30", "#place-height": "40"}, "Tab").settles()
+    assert corners(person) == [[-15.0, -20.0], [15.0, -20.0], [15.0, 20.0], [-15.0, 20.0]]
     # How long it may last is said in minutes, or by the clock once it says when the dance starts.
     person.types({"#ends": "19:50"}, "Tab").sees({"#ends-wrong": "Say at “Starts at” when the dance starts"})
     person.types({"#begin_clock": "19:46"}, "Tab").sees({"#ends-wrong": False})
     # A second dragon needs the path of the first.
     person.sees({"#propose": True, "#several": False})
-    proposed(person).presses(CARDS).reads({f"{CLEAR} .value": "✓Can be danced"}).has(CARDS, aria_pressed="true")
+    # Without a path, the best of the dances is shown at once.
+    proposed(person).reads({f"{CLEAR} .value": "✓Can be danced"}).has(CARDS, aria_pressed="true")
     person.sees({"#several": True, CARDS: re.compile(r"Ring.*, 3 min \d+ s;", re.DOTALL)})
     person.settles()
     assert person.ask(NARROW) == []
@@ -119,8 +122,9 @@ def _gates_lie_on_the_border_and_the_dance_begins_in_their_streets(person):
     person.presses("[data-add=gate]").sees({"#add-help": "a straight street of about"})
     person.sees({"#draw-help": "Tap the border", "[data-add=gate]": False})
     tap_at(person, -11, 1)
-    person.chooses({"#beside select": "in"})
+    person.holds({"#beside select": ""})
     tap_at(person, 11, -2)
+    person.holds({"#beside select": "out"})
     # Who types how fast it goes needs neither the tools nor the numbers of the gate.
     person.types({"#place [data-label='Head speed']": "1.2"}).settles()
     person.sees({"[data-add=gate]": True, "#beside": False})
@@ -143,10 +147,9 @@ def test_a_square_has_typed_sizes_corners_and_sides_and_nothing_changes_or_stays
     person = open_page(f"{EMPTY}&benches=8", failing=True).presses("#propose")
     person.reads({"#proposed": "First say how large your square is."}).types({"#place-width": "-3"})
     person.sees({"#place-wrong": "“-3”"})
-    ring = corners(person.types({"#place-diameter": "26,5"}))
+    ring = corners(person.chooses({"#place-shape": "circle"}).types({"#place-diameter": "26,5"}))
     assert [math.hypot(*corner) for corner in ring] == pytest.approx([13.25] * len(ring), abs=1e-3)
-    person.opens(YARD).types({"#place-width": "26"}).types({"#place-diameter": "20000"})
-    person.sees({"#place-wrong": "“20000”"}).holds({"#place-width": "26"}).types({"#place-width": "5"})
+    person.opens(YARD).types({"#place-width": "20000"}).sees({"#place-wrong": "“20000”"}).types({"#place-width": "5"})
     person.sees({"#proposed": "Outside the square now: linden."})
     person.opens(YARD).presses("[data-add=area]")
     row = "#corners tbody tr >> nth=1"

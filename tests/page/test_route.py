@@ -166,8 +166,8 @@ def test_a_touch_takes_a_thing_whatever_the_tool_and_its_numbers_stand_beside_it
 def test_an_l_is_drawn_by_its_size_and_a_tap_puts_a_fountain_of_a_usual_size_there(open_page):
     person = open_page("?door=village&path=route&benches=9", **PHONE).chooses({"#place-shape": "l"})
     size = {"#place-width": "42", "#place-height": "28", "#notch-width": "42", "#notch-height": "10"}
-    person.types(size, "Tab").presses("#take-rectangle").sees({"#place-wrong": "less than 42 m; you typed “42”"})
-    person.types({"#notch-width": "14"}, "Tab").presses("#take-rectangle").sees({"#place-wrong": False}).settles()
+    person.types(size, "Tab").sees({"#place-wrong": "less than 42 m; you typed “42”"})
+    person.types({"#notch-width": "14"}, "Tab").sees({"#place-wrong": False}).settles()
     assert person.address()["things"] == "a.square..-21,-14_21,-14_21,4_7,4_7,14_-21,14"
     assert person.presses("[data-add=kits]").sees({"#kits": ["fountain 3 m across", "stage 8 × 5 m"]}).findings() == []
     person.presses("#kits button:has-text('fountain')").settles().at("#canvas").tap()
