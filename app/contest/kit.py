@@ -30,7 +30,7 @@ from app.files.tables import XLSX_DECIMALS, instant_sheet, trajectory_sheets
 from app.files.workbooks import Worksheet, workbook
 from app.wire.question import Terms
 from core import InvalidValue
-from core.language import say
+from core.language import Listed, say
 
 FIGURES, TABLES = "figures", "tables"
 # What is handed in for each question: workbooks, tables, and figures.
@@ -41,6 +41,8 @@ PARTS = {
     4: ("result4.xlsx", "turn-positions", "turn-speeds", "geometry"),
     5: ("amplification",),
 }
+# The workbook of a question, and the answer that it needs.
+WORKBOOKS = {1: ("result1.xlsx", "inwards"), 2: ("result2.xlsx", "contact"), 4: ("result4.xlsx", "around")}
 # Folder for files until all are ready, the file that comes last, and the name of the lock.
 UNFINISHED, REPORT, ROLE = ".unfinished", "report.md", ".contest"
 ON_PAPER = "report.pdf"
@@ -185,6 +187,18 @@ def zip_of(
             # Without a time of its own, which is then the first that an archive can have.
             archive.writestr(ZipInfo(name), data, ZIP_DEFLATED if name.endswith(TEXTS) else ZIP_STORED)
     return sink.getvalue()
+
+
+def workbook_alone(request: ContestRequest, terms: Terms, question: int | None) -> bytes:
+    """The workbook of a question, without the rest of the kit. raises: as zip_of; InvalidValue without a workbook"""
+    require("xlsx", "language", "contest")
+    if question not in WORKBOOKS:
+        raise InvalidValue(
+            "question", "must be {numbers} for a workbook alone", got=question, numbers=Listed(WORKBOOKS)
+        )
+    name, needed = WORKBOOKS[question]
+    solved = solve(request, terms, terms.progress, question, (needed,))
+    return workbook(_workbooks(solved)[name](), XLSX_DECIMALS)
 
 
 def _workbooks(solved: Solved) -> dict[str, Callable[[], list[Worksheet]]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -179,15 +180,18 @@ class Solved:
         return np.linspace(-self.request.span, self.request.span, TURN_STEPS + 1)
 
 
-def solve(request: ContestRequest, terms: Terms, progress: Progress, question: int | None = None) -> Solved:
-    """The answers, of which those to a question are ready. question: None for all five
+def solve(
+    request: ContestRequest, terms: Terms, progress: Progress, question: int | None = None, names: Collection[str] = ()
+) -> Solved:
+    """The answers, of which those to a question are ready. question: None for all five; names: the only ones, if any
 
     raises: InvalidValue, also for a question about a turn where none can be danced; OutsideRun, TooMuchWork
     """
     dragon = request.to_dragon(terms.settings.checked_benches_max)
     spiral = Dance(dragon, request.to_path(), request.head_speed)
     on_spiral, on_turn = (
-        [name for name, number in names.items() if question in (None, number)] for names in (OF_SPIRAL, OF_TURN)
+        [name for name, number in known.items() if question in (None, number) and name in (names or known)]
+        for known in (OF_SPIRAL, OF_TURN)
     )
     solved = Solved(request, spiral, None, terms.budget)
     for name in on_spiral:

@@ -14,8 +14,10 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import core
 from app.grade.contacts import PITCH_RANGE, longest_overlap
-from app.grade.judged import Rating
+from app.grade.expected import Workbook, dance_of
+from app.grade.judged import DECIMALS_OF_CONTEST, Rating
 from app.grade.limits import SAFE_SIDE, WIDER_LENGTH, beyond, broken, limit_of
 from app.grade.shortcuts import UNITS, Finding, Shortcut, pitch_grids, right_answer, shortcuts
 from app.grade.typed_number import OTHER_UNITS
@@ -41,6 +43,9 @@ OVERLAP_MOST = 0.1
 DIGITS_LEAST = 2
 # Most decimals of a rounded number.
 DECIMALS_MOST = 4
+# A time as near to the nearest pass before first contact is that of the pass [s].
+PASS_SPAN = 0.05
+MM = 1000.0
 # Length that every turn exceeds whose first arc has twice the radius of the second [m], as core.shortest_turn() proves.
 TURN_OF_TWO_LEAST = 11.7991513
 
@@ -51,22 +56,25 @@ class Graded:
 
     notes: remarks in words; findings: shortcuts that give it, with the chance of each
     breaks: the limit that it breaks, and what happens there; None if it breaks none
+    headline: name of the verdict in words; empty: that of the verdict
     """
 
     verdict: Rating
     notes: list[Note]
     findings: list[Finding]
     breaks: Note | None = None
+    headline: str = ""
 
 
 def graded_number(name: str, value: float, half_unit: float) -> Graded:
     """The grade of one of UNITS. value: in its unit; half_unit: half of its last digit
 
-    A number is right if it is the right one to its own digits. One that is off by less than its last digit was rounded
-    the other way, and nothing else follows from that. A limit is rounded to its safe side: the least pitch and the
-    shortest turn up, the highest speed down; on the other side benches touch, or somebody is too fast. It is kept to
-    half of the last decimal that the contest asks for. Whatever else is wrong with a number, a limit that it breaks
-    comes first. A number of too few digits to be right is incomplete.
+    A number is right if it is the right one to the decimals that the contest asks for, and rounded if it is the right
+    one to fewer. One that is off by less than its last digit was rounded the other way, and nothing else follows. A
+    limit is rounded to its safe side: the least pitch and the shortest turn up, the highest speed down; on the other
+    side benches touch, or somebody is too fast. It is kept to half of the last decimal that the contest asks for.
+    Whatever else is wrong with a number, a limit that it breaks comes first. A number of too few digits to be right is
+    incomplete.
     """
     half, excess = max(half_unit, HALF_UNIT_LEAST), beyond(name, value)
     digits = math.floor(math.log10(min(value, right_answer(name)))) + 1 + _decimals_of(half)
@@ -87,12 +95,13 @@ def _graded(name: str, value: float, half_unit: float) -> Graded:
     is_nearest, is_near = abs(value - right) <= HALF * half, abs(value - right) < 2.0 * half
     decimals = _decimals_of(half)
     words = {"nearest": f"{round(right, decimals):.{max(decimals, 0)}f}", "unit": UNITS[name]}
-    if is_nearest:
-        return Graded(Rating.RIGHT, [], [])
+    is_safe = name in SAFE_SIDE and SAFE_SIDE[name] * (value - right) > 0.0
+    if is_nearest or (is_near and is_safe):
+        is_whole = decimals >= DECIMALS_OF_CONTEST
+        notes = [] if is_nearest else [note(f"{name}_rounded_safely", **words)]
+        return Graded(Rating.RIGHT if is_whole else Rating.ROUNDED, notes, [], headline="" if is_whole else "to_digits")
     if is_near and name not in SAFE_SIDE:
-        return Graded(Rating.ROUNDED, [note("rounded_otherwise", **words)], [])
-    if is_near and SAFE_SIDE[name] * (value - right) > 0.0:
-        return Graded(Rating.RIGHT, [note(f"{name}_rounded_safely", **words)], [])
+        return Graded(Rating.ROUNDED, [note("rounded_otherwise", **words)], [], headline="not_to_the_nearest")
     if name == "turn_length" and value < right:
         kinds = ("possible_turn", TURN_OF_TWO_LEAST), ("possible_turn_of_ratio", WIDER_LENGTH)
         kind = next((kind for kind, least in kinds if value + half_unit >= least), "possible_turn_tighter")
@@ -105,10 +114,32 @@ def _wrong(name: str, value: float, half_unit: float) -> Graded:
     if in_other := _in_other_unit(name, value, half_unit):
         return Graded(Rating.WRONG, [in_other], [])
     is_tight = name == "pitch" and beyond(name, value) > 0.0
-    notes, findings = _overlap_of(value) if is_tight else [], explained(name, value, half_unit)
+    findings = explained(name, value, half_unit)
+    notes = _overlap_of(value) if is_tight else [_meaning_of(name, value)] if beyond(name, value) <= 0.0 else []
     if not findings:
         notes.append(note("too_few_digits" if half_unit > DIGITS_SHARE * value else "nothing_fits"))
-    return Graded(Rating.WRONG, notes, findings)
+    is_possible = name in SAFE_SIDE and beyond(name, value) <= 0.0
+    return Graded(Rating.WRONG, notes, findings, headline=f"not_best_{name}" if is_possible else "")
+
+
+def _meaning_of(name: str, value: float) -> Note:
+    """What is true at a wrong number that breaks no limit: how far it is from the best one, or what a time shows."""
+    far = abs(value - right_answer(name))
+    if name in SAFE_SIDE:
+        return note(f"{name}_{'slower' if name == 'speed' else 'longer'}", far=_length_of(far, UNITS[name]))
+    if value > right_answer(name):
+        return note("time_late", far=f"{far:.3g}")
+    dance = dance_of(Workbook.RESULT2)
+    graze = core.first_contact(dance).certificate.least_clearance
+    if graze and abs(graze.time - value) <= PASS_SPAN:
+        return note("time_of_pass", time=f"{graze.time:.2f}", far=f"{far:.3g}", gap=_length_of(graze.clearance, "m"))
+    gap = float(core.clearance_profile(dance, [value]).clearance[0])
+    return note("time_early", far=f"{far:.3g}", gap=_length_of(gap, "m"))
+
+
+def _length_of(size: float, unit: str) -> str:
+    """A small size in three digits, lengths below a metre in millimetres."""
+    return f"{MM * size:.3g} mm" if unit == "m" and size < 1.0 else f"{size:.3g} {unit}"
 
 
 def _in_other_unit(name: str, value: float, half_unit: float) -> Note | None:

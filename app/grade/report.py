@@ -177,8 +177,9 @@ class TypedAnswer(Answer):
     """One number that was typed in.
 
     answer: what it answers: collision_time, pitch, speed or turn_length
-    verdict: it is right, as far as its digits go; rounded, if it is off by less than its last digit; incomplete, if it
-        has too few digits; infeasible, if it was rounded beyond a limit; or wrong
+    verdict: right, to the six decimals that the contest asks for; rounded, if it is right to fewer, or off by less
+        than its last digit; incomplete, if it has too few digits; infeasible, if it was rounded beyond a limit; or
+        wrong
     breaks: the limit that the number breaks, and by how much, in words; null if none
     found: the given number, in `unit`
     expected: the right number, in `unit`
@@ -318,10 +319,8 @@ def typed(name: str, text: str) -> TypedAnswer:
     ungraded = 0 if grade.verdict is Rating.WRONG else max(decimals - DECIMALS_OF_CONTEST, 0)
     count, breaks = len(digits) - ungraded, str(grade.breaks or "")
     notes = [str(one) for one in [*reading, *grade.notes]]
-    headline, sentences = word(grade.verdict.value), notes
-    if grade.verdict is Rating.RIGHT:
-        headline += word("to_digits", digits=count)
-    else:
+    headline, sentences = word(grade.headline or grade.verdict.value, digits=count), notes
+    if grade.verdict is not Rating.RIGHT:
         sentences = [*notes, word("is_right", right=f"{right_answer(name):.9f}", unit=UNITS[name])]
     return TypedAnswer(
         answer=name,

@@ -11,7 +11,7 @@ const HANDED_IN = /\.(xlsx|xlsm|xls|csv|png|jpe?g|pdf|docx?)$/i;
 const LONGEST = 20_000_001;
 /** Signatures of a ZIP archive: the end of its list, and an entry of it. */
 const [END, ENTRY] = [0x06054b50, 0x02014b50];
-const TYPES = { xlsx: "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet", csv: "text/csv" };
+export const TYPES = { xlsx: "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet", csv: "text/csv" };
 
 /** The team of a file: the folder in which it lies, or its name without an ending; empty for one that lies alone. */
 function teamOf(path) {

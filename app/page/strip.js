@@ -1,6 +1,7 @@
 /** The five questions of the contest on one strip: each with its answer, why, a picture, what is handed in, and a check of one's own. */
 
 import { Problem, Superseded } from "./api.js";
+import { TYPES, handedIn } from "./class.js";
 import { $, button, download, make } from "./elements.js";
 import { FIELDS } from "./fields.js";
 import { judge } from "./grade.js";
@@ -17,8 +18,10 @@ const [WIDTH, HEIGHT, MARGIN, DOT] = [240, 150, 8, 4];
 const STEPS = { ArrowUp: [1, 0], ArrowDown: [-1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] };
 const RATIO = 2;
 const SVG = "http://www.w3.org/2000/svg";
-/** What is handed in for a question that has no workbook. */
-const FORM = ".xlsx,.xlsm,.xls,.csv";
+/** What may be dropped to be checked. */
+const FORM = ".xlsx,.xlsm,.xls,.csv,.zip";
+/** Endings of what is judged of an archive: workbooks if there are any, else tables. */
+const JUDGED = [/\.xls[xm]?$/i, /\.csv$/i];
 
 const shape = (tag, attributes) => {
   const element = document.createElementNS(SVG, tag);
@@ -96,6 +99,14 @@ const paragraph = (textContent) => make("p", { textContent });
 /** Name of the archive that is handed in. */
 const archiveOf = (question) => `bench-dragon-question-${question}.zip`;
 
+/** What is judged of a file: itself, or of an archive the workbook of this name, else its workbooks, else its tables. */
+async function judgedOf(file, workbook) {
+  if (!/\.zip$/i.test(file.name)) return [file];
+  const files = (await handedIn([file])).map((one) => one.file);
+  const kinds = [files.filter(({ name }) => name === workbook), ...JUDGED.map((ending) => files.filter(({ name }) => ending.test(name)))];
+  return kinds.find((some) => some.length) ?? [];
+}
+
 export class Strip {
   #language = "";
 
@@ -150,14 +161,15 @@ export class Strip {
     card.querySelector("summary")?.focus();
   }
 
-  #parts({ question, asks, text, sentences: [first, ...others], more, turns, picture, offers, workbook, number, example }, kept, askMore) {
+  #parts({ question, asks, text, sentences: [first, ...others], more, turns, picture, offers, workbook, number, unit }, kept, askMore) {
     const why = make("details", { open: kept.further }, make("summary", { textContent: say("Why") }), ...others.map(paragraph));
     const buttons = offers.map((offer) => button({ textContent: offer.words }, () => this.#take(offer)));
     if (more) buttons.push(button({ textContent: more }, askMore));
-    kept.hand.firstChild.textContent = say("Hand in: {files}", { files: workbook ?? say("figure") });
+    kept.hand.firstChild.textContent = workbook ? say("With tables and figures (.zip)") : say("Hand in: {files}", { files: say("figure") });
+    if (workbook) buttons.push(button({ textContent: say("Hand in: {files}", { files: workbook }) }, ({ target }) => this.#handWorkbook(question, workbook, target)));
     if (turns) why.append(mapOf(turns, (ratio, entry) => this.#take({ path: "turn", numbers: { ratio, entry_radius: entry, exit_radius: entry, time: 0 } })));
     const value = make("p", { className: "value", textContent: text });
-    return [make("p", { className: "asks", textContent: asks }), drawn(picture), value, paragraph(first), why, make("p", { className: "buttons" }, ...buttons, kept.hand), kept.made, this.#check(question, kept, { workbook, number, example })];
+    return [make("p", { className: "asks", textContent: asks }), drawn(picture), value, paragraph(first), why, make("p", { className: "buttons" }, ...buttons, kept.hand), kept.made, this.#check(question, kept, { workbook, number, unit })];
   }
 
   /** The dance of an offer, with the contest's numbers for all else. */
@@ -168,6 +180,19 @@ export class Strip {
     const texts = Object.fromEntries(Object.entries(own).map(([name, value]) => [name, String(value)]));
     this.state.push({ ...plain, ...texts, path, time, handle, view: null, dances: "", bench: null });
     this.show();
+  }
+
+  /** Save the workbook alone. */
+  async #handWorkbook(question, name, pressed) {
+    pressed.disabled = true;
+    try {
+      download(await this.service.ask(`workbook-${question}`, "contest-kit", { body: { question, language: language() }, accept: TYPES.xlsx }), name);
+      announceSaved(name);
+    } catch (error) {
+      announceRefusal(error);
+    } finally {
+      pressed.disabled = false;
+    }
   }
 
   /** Make the archive as a job; a service that takes none from this client makes it at once. */
@@ -206,17 +231,24 @@ export class Strip {
   }
 
   /** A number to type, a workbook to drop, and what the service says of it, in place. */
-  #check(question, kept, { workbook, number, example }) {
+  #check(question, kept, { workbook, number, unit }) {
     const verdict = make("div", { className: "verdicts", "aria-live": "polite" });
     const ask = async (asked) => {
       kept.asked = asked;
       verdict.replaceChildren(paragraph(say("Checking …")));
-      const found = await judge(this.service, `check-${question}`, { ...asked, language: language() });
-      if (found && kept.asked === asked) verdict.replaceChildren(...found.boxes);
+      const { file } = asked;
+      const parts = file ? (await judgedOf(file, workbook)).map((one) => ({ file: one })) : [asked];
+      const boxes = parts.length ? [] : [paragraph(say("“{name}” holds no workbook and no table (.xlsx or .csv).", { name: file.name }))];
+      for (const part of parts) {
+        const found = await judge(this.service, `check-${question}`, { ...part, language: language() });
+        if (!found || kept.asked !== asked) return;
+        boxes.push(...found.boxes);
+      }
+      if (kept.asked === asked) verdict.replaceChildren(...boxes);
     };
     const parts = [];
     if (number) {
-      const typed = make("input", { id: `mine-${question}`, inputMode: "text", autocomplete: "off", placeholder: example, value: kept.text, ariaLabel: say("Your answer to question {number}", { number: question }) });
+      const typed = make("input", { id: `mine-${question}`, inputMode: "text", autocomplete: "off", placeholder: `… ${unit}`, value: kept.text, ariaLabel: say("Your answer to question {number}", { number: question }) });
       // A verdict is of the number that stands there.
       typed.addEventListener("input", () => {
         [kept.text, kept.asked] = [typed.value, null];
@@ -227,14 +259,14 @@ export class Strip {
     if (workbook) {
       const chosen = make("input", { type: "file", accept: FORM, ariaLabel: workbook });
       chosen.addEventListener("change", () => chosen.files[0] && ask({ file: chosen.files[0] }));
-      parts.push(make("label", { className: "mine" }, make("span", { textContent: say("or drop {workbook} here", { workbook }) }), chosen));
+      parts.push(make("label", { className: "mine" }, make("span", { textContent: say("or drop {workbook} here, also as .csv or in a .zip", { workbook }) }), chosen));
     }
     const form = make("form", { className: "check" }, ...parts);
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       const text = kept.text.trim();
       if (text) ask({ name: number, text });
-      else verdict.replaceChildren(paragraph(say("Type your answer first, such as {example}.", { example })));
+      else verdict.replaceChildren(paragraph(say("Type your answer first, in {unit}.", { unit })));
     });
     for (const type of ["dragenter", "dragover"]) form.addEventListener(type, (event) => event.preventDefault());
     form.addEventListener("drop", (event) => {

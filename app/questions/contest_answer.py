@@ -14,6 +14,7 @@ from app.contest import pictures
 from app.contest.pictures import Picture
 from app.contest.solved import ContestRequest
 from app.grade.limits import EQUAL_TURN, TIGHTER_TURN, WIDER_LENGTH
+from app.grade.shortcuts import UNITS
 from app.wire.answers import SENTENCES
 from app.wire.fields import Answer, Whole, Wire, measure
 from app.wire.question import Question, Terms
@@ -79,6 +80,7 @@ class ContestAnswer(Answer):
     number: str | None = Field(
         description="Name of the number that POST /grade judges for this question; null if it is all in the workbook"
     )
+    unit: str | None = Field(None, description="Unit of that number")
     example: str | None = Field(description="That number as a student may write it; null without one")
 
 
@@ -150,6 +152,7 @@ def _contact(dragon: Dragon, terms: Terms) -> ContestAnswer:
         offers=[Offer(words=say("Show the contact"), path="spiral", numbers={"time": contact.time})],
         workbook="result2.xlsx",
         number="collision_time",
+        unit=UNITS["collision_time"],
         example="412.473838",
     )
 
@@ -176,6 +179,7 @@ def _pitch(dragon: Dragon, terms: Terms) -> ContestAnswer:
         offers=[Offer(words=say("Use this pitch"), path="spiral", numbers={"pitch": minimum.pitch_bracket[1]})],
         workbook=None,
         number="pitch",
+        unit=UNITS["pitch"],
         example="0.450338",
     )
 
@@ -206,6 +210,7 @@ def _turn(dragon: Dragon, terms: Terms) -> ContestAnswer:
         offers=[_turn_offer(say("Dance this turn"), turn)],
         workbook="result4.xlsx",
         number="turn_length",
+        unit=UNITS["turn_length"],
         example="13.621245",
     )
 
@@ -328,6 +333,7 @@ def _speed(dragon: Dragon, terms: Terms) -> ContestAnswer:
         ],
         workbook=None,
         number="speed",
+        unit=UNITS["speed"],
         example="1.246266",
     )
 

@@ -7,9 +7,10 @@ from collections.abc import Callable
 from pydantic import Field
 
 from app.contest.films import FILMS, Wanted
-from app.contest.kit import zip_of
+from app.contest.kit import workbook_alone, zip_of
 from app.contest.solved import ContestRequest
 from app.files.film_spec import ENDINGS, LOOKS
+from app.files.tables import XLSX_TYPE
 from app.questions.films import SECONDS_PER_MEGAPIXEL
 from app.wire.fields import Whole, check_limit, measure
 from app.wire.question import Question, Terms
@@ -20,6 +21,8 @@ from core.questions import unanswered
 ZIP_TYPE = "application/zip"
 # Time of everything but the films of the contest's dance, measured 2026-11-27 [s].
 SECONDS = 12.0
+# Time of the workbook of a question, measured 2026-11-30 [s].
+WORKBOOK_SECONDS = 1.0
 # Work of the answers and of the figures, beside 1 for a film.
 ANSWERS, FIGURES = 0.1, 0.5
 
@@ -48,8 +51,11 @@ class ContestKitRequest(ContestRequest, strict=True):
         return Wanted(self.has_films, self.gif, self.seconds)
 
 
-def contest_kit(request: ContestKitRequest, terms: Terms) -> bytes:
-    """The contest kit (CUMCM 2024 A) as a ZIP archive: workbooks, answers, tables, figures, films and a report."""
+def contest_kit(request: ContestKitRequest, terms: Terms, form: str = ZIP_TYPE) -> bytes:
+    """The contest kit (CUMCM 2024 A) as a ZIP archive: workbooks, answers, tables, figures, films and a report.
+
+    The workbook of a question alone is there as .xlsx.
+    """
     limits, handles = terms.settings, request.benches + 1
     check_limit(
         "benches",
@@ -74,6 +80,8 @@ def contest_kit(request: ContestKitRequest, terms: Terms) -> bytes:
             "take shorter films",
         )
     try:
+        if form == XLSX_TYPE:
+            return workbook_alone(request, terms, request.question)
         return zip_of(request, request.shot, terms, _overall(request, terms), request.question)
     except Halted as halted:
         raise unanswered(halted.budget, "benches", "the kit was not made", request.benches) from halted
@@ -102,9 +110,13 @@ def _megapixels(request: ContestKitRequest) -> dict[tuple[str, str], float]:
     return {(name, form): sizes[form] for name in FILMS for form in forms}
 
 
-def _cost(request: ContestKitRequest) -> float:
+def _cost(request: ContestKitRequest, form: str = ZIP_TYPE) -> float:
+    if form == XLSX_TYPE:
+        return WORKBOOK_SECONDS
     films = _megapixels(request).items() if request.has_films else ()
     return SECONDS + sum(pixels * SECONDS_PER_MEGAPIXEL[form] for (_, form), pixels in films)
 
 
-QUESTION = Question(contest_kit, None, body=ContestKitRequest, forms=(ZIP_TYPE,), cost=_cost, at="/contest-kit")
+QUESTION = Question(
+    contest_kit, None, body=ContestKitRequest, forms=(ZIP_TYPE, XLSX_TYPE), cost=_cost, at="/contest-kit"
+)

@@ -39,6 +39,15 @@ def test_a_student_finds_all_five_answers_checks_their_own_and_hands_in(open_pag
     with ZipFile(BytesIO(data)) as archive:
         assert {"result2.xlsx", "figures/clearance.pdf"} <= set(archive.namelist())
     person.sees({"#question-2 .made a": "bench-dragon-question-2.zip", "#jobs li": "Question 2"})
+    # The archive is judged as it was handed out, and so is the workbook alone.
+    archive = files[0].with_name("bench-dragon-question-2.zip")
+    archive.write_bytes(data)
+    person.takes(archive, "#question-2 input[type=file]").sees({"#question-2 .verdicts h3": "result2.xlsx"})
+    person.sees({"#question-2 .verdicts": "672 of 672 cells right"})
+    alone = person.saves("#question-2 .buttons button:has-text('Hand in')", "result2.xlsx")
+    with ZipFile(BytesIO(data)) as whole, ZipFile(BytesIO(alone)) as book:
+        assert whole.read("result2.xlsx") == alone
+        assert "xl/workbook.xml" in book.namelist()
     person.speaks("zh").sees({"#question-4": "任何半径比都不改变这一长度", "#question-3 .verdicts": "正确"})
 
 

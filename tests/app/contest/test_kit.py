@@ -25,12 +25,14 @@ from app.contest.sensitivity import panels
 from app.contest.solved import ContestRequest, solve
 from app.contest.tables import paper_tables
 from app.files import drawing
+from app.files.tables import XLSX_TYPE
 from app.grade.report import graded
 from app.questions.contest_kit import ContestKitRequest, contest_kit
 from app.settings import Settings
 from app.wire.question import Terms
 from core import Budget, TooMuchWork
 from core.language import Language
+from tests.support.asking import assert_problem
 from tests.support.command import COMMAND, PATIENCE, refusal, run, said
 from tests.support.depth import further
 from tests.support.near import assert_near
@@ -229,6 +231,22 @@ def test_an_english_archive_leads_to_no_figure_that_was_not_drawn(tmp_path, monk
 )
 def test_a_kit_beyond_a_limit_is_refused_before_any_work(client, row):
     assert_refused(client, "/contest-kit", {}, row)
+
+
+@pytest.mark.parametrize("question, name", [(1, "result1.xlsx"), (2, "result2.xlsx"), (4, "result4.xlsx")])
+def test_the_workbook_of_a_question_comes_alone_as_in_its_archive(client, question, name):
+    body = {"benches": 5, "language": "en", "question": question, "films": False, "stop": 10, "span": 3}
+    alone = client.post("/contest-kit", json=body, headers={"Accept": XLSX_TYPE}).raise_for_status()
+    with ZipFile(io.BytesIO(client.post("/contest-kit", json=body).raise_for_status().content)) as archive:
+        assert archive.read(name) == alone.content
+
+
+@pytest.mark.parametrize("question", [None, 3, 5])
+def test_a_question_without_a_workbook_has_none_alone(client, question):
+    body = {"benches": 5, "question": question}
+    refused = client.post("/contest-kit", json=body, headers={"Accept": XLSX_TYPE})
+    assert_problem(refused, 422)
+    assert refused.json()["errors"][0]["pointer"] == "/question"
 
 
 def stopped(budget, listen, **more):

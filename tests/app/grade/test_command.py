@@ -148,8 +148,9 @@ TYPED = [
     "collision_time 406.4287 -> wrong loose_angle",
     "collision_time 407.4 -> wrong ?literal_corners",
     "collision_time 407.41428 -> wrong literal_corners",
-    "collision_time 412.46 -> wrong",
-    "collision_time 412.478 -> wrong",
+    "collision_time 412.46 -> wrong | the nearest two benches are 0.366 mm apart, and they first touch 0.0138 s later",
+    "collision_time 409.83 -> wrong | nearest pass before the contact: two benches come as near as 0.865 mm",
+    "collision_time 412.478 -> wrong | the first contact is 0.00416 s earlier",
     "collision_time 412.8 -> wrong",
     "pitch 0.4202 -> wrong ?pose_on_circle",
     "pitch 0.4202169 -> wrong pose_on_circle",
@@ -184,38 +185,40 @@ TYPED = [
     "speed 1.3194 -> wrong",
     "speed 2.0 -> wrong",
     "speed 1.4 -> wrong",
-    "collision_time 412.47 -> right",
+    "collision_time 412.47 -> rounded",
     "collision_time 412.48 -> rounded | to the nearest digit the right one is 412.47 s",
     "collision_time 412.473838 -> right",
     "collision_time 412.47383765 -> right",
     "pitch 0.4503 -> infeasible | 0.4504 m is the smallest of as many digits",
     "pitch 0.45033 -> infeasible | 0.45034 m is the smallest of as many digits",
     "pitch 0.45 -> infeasible | 0.46 m is the smallest of as many digits",
-    "pitch 0.4504 -> right | rounded up, as a pitch must be",
-    "pitch 0.46 -> right | rounded up, as a pitch must be",
+    "pitch 0.4504 -> rounded | rounded up, as a pitch must be",
+    "pitch 0.46 -> rounded | rounded up, as a pitch must be",
     "speed 1.25 -> infeasible | 1.24 m/s is the highest of as many digits",
     "speed 1.24627 -> infeasible | 1.24626 m/s is the highest of as many digits",
     "speed 1.247 -> infeasible | exceeds 2 m/s: 1.246 m/s is the highest of as many digits",
     "speed 1.2463 -> infeasible | 1.2462 m/s is the highest of as many digits",
     "pitch 4.5e-1 -> infeasible | rounded down: benches touch at this pitch, and 0.46 m is",
     "pitch 4503E-4 -> infeasible | 0.4504 m is the smallest of as many digits",
-    "pitch 0.004504e+2 -> right | to the nearest digit it is 0.4503 m",
+    "pitch 0.004504e+2 -> rounded | to the nearest digit it is 0.4503 m",
     "collision_time 4e2 -> incomplete | too few to tell the number from a wrong one: at least 2 digits",
     "collision_time 5e2 -> incomplete | too few to tell the number from a wrong one",
-    "collision_time 4.1e2 -> right",
+    "collision_time 4.1e2 -> rounded",
     "pitch 1 -> incomplete | too few to tell the number from a wrong one",
     "pitch 1.0 -> wrong | too few to tell why",
     "pitch 0.5 -> incomplete | too few to tell the number from a wrong one",
     "speed 1 -> incomplete | too few to tell the number from a wrong one",
-    "speed 1.2 -> right",
-    "collision_time +412.47 -> right",
-    "pitch .4504 -> right | rounded up, as a pitch must be",
+    "speed 1.2 -> rounded",
+    "collision_time +412.47 -> rounded",
+    "pitch .4504 -> rounded | rounded up, as a pitch must be",
     "pitch 0.4502 -> wrong | No known error",
+    "pitch 0.4505 -> wrong | nothing touches, but so it does at smaller ones: it is 0.163 mm larger than the smallest",
+    "speed 1.1 -> wrong | no handle exceeds 2 m/s, but the head may be 0.146 m/s faster",
     "speed 2 -> infeasible | too few to tell the number from a wrong one",
     "speed 1.3 -> infeasible | At this speed a handle exceeds 2 m/s: 1.2 m/s is the highest of as many digits",
     "speed 1.252 -> wrong",
-    "speed 1.24 -> right | rounded down, as a highest speed must be",
-    "speed 1.246 -> right",
+    "speed 1.24 -> rounded | rounded down, as a highest speed must be",
+    "speed 1.246 -> rounded",
     "pitch 0.42 -> wrong | too few to tell why",
     "pitch 0.44 -> wrong | too few to tell why",
     "pitch 0.4321 -> wrong | No known error",
@@ -233,12 +236,12 @@ TYPED = [
     "turn_length 12.949437944 -> right | right if both places are stated",
     "turn_length 13.06 -> right | right if both places are stated",
     "turn_length 13.5 -> right | right if both places are stated",
-    "turn_length 13.62 -> right |",
+    "turn_length 13.62 -> rounded |",
     "turn_length 9 -> incomplete | too few to tell the number from a wrong one",
     "turn_length 13 -> right | right if both places are stated",
-    "turn_length 13.63 -> right | rounded up, as a shortest length must be; to the nearest digit it is 13.62 m",
-    "turn_length 13.622 -> right | rounded up, as a shortest length must be",
-    "turn_length 13.624 -> wrong",
+    "turn_length 13.63 -> rounded | rounded up, as a shortest length must be; to the nearest digit it is 13.62 m",
+    "turn_length 13.622 -> rounded | rounded up, as a shortest length must be",
+    "turn_length 13.624 -> wrong | It is 2.76 mm longer than the turn of two arcs from the edge of the circle",
     "turn_length 7.1234 -> wrong | No known error",
     "turn_length 7.1 -> wrong | too few to tell why",
     "turn_length 13.8 -> wrong | too few to tell why",
@@ -269,7 +272,7 @@ BROKEN = """
 speed        1.25      infeasible  2 m/s: handles 3, 4, 5, 6, 7 reach 2.006 m/s 11.584 s after the turn begins
 speed        1.2463    infeasible  reach 2.0001 m/s
 speed        1.4       wrong       reach 2.247 m/s
-speed        1.24      right
+speed        1.24      rounded
 pitch        0.4503    infeasible  benches 0 and 19 touch when the head is 4.576 m from the centre, before it reaches
 pitch        0.4202    wrong       benches 0 and 21 touch
 pitch        0.35      wrong       benches 0 and 23 touch at the start
@@ -291,6 +294,21 @@ def test_a_number_beyond_its_limit_is_infeasible_and_says_by_how_much(row):
     assert "".join(words) in (result.breaks or "")
     with speaking("zh"):
         assert bool(typed(name, text).breaks) is bool(words)
+
+
+@pytest.mark.parametrize(
+    "number, headline",
+    [
+        ("collision_time 412.473838", "right"),
+        ("collision_time 412.5", "rounded: right to its 4 digits; the contest asks for six decimals"),
+        ("collision_time 413", "rounded, but not to the nearest"),
+        ("pitch 0.4505", "possible, but not the smallest"),
+        ("speed 1.1", "possible, but not the highest"),
+        ("turn_length 13.8", "not the shortest"),
+    ],
+)
+def test_the_first_line_says_how_a_number_differs_from_the_right_one(number, headline):
+    assert typed(*number.split()).headline == headline
 
 
 def test_a_limit_that_is_broken_stands_in_the_first_line_and_in_a_summary(tmp_path):

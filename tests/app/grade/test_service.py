@@ -83,7 +83,7 @@ def test_a_name_in_another_encoding_is_no_obstacle(client, name):
         ("speed", "1.246266M/S", ["Read as 1.246266.", "The unit m/s is meant anyway and need not be written."]),
         ("collision_time", " 412.473838 ", []),
         ("turn_length", "１３．６２１２４５", ["Read as 13.621245.", "Its digits are full-width ones"]),
-        ("collision_time", "４１２，４７ 秒", ["Read as 412.47.", "Its digits", "The unit s", "The comma"]),
+        ("collision_time", "４１２，４７３８３８ 秒", ["Read as 412.473838.", "Its digits", "The unit s", "The comma"]),
         ("pitch", "45.0338 cm", ["Read as 0.450338.", "It was written in cm and is converted to m."]),
         ("pitch", "0。450338", ["Read as 0.450338.", "Its digits are full-width ones"]),
     ],
@@ -102,7 +102,7 @@ def test_a_number_is_read_as_people_type_it_and_notes_say_how(client, name, text
         ("pitch", "45.04", "in cm; the contest asks for m, which makes it 0.4504 m."),
         ("collision_time", "6.8746", "in min; the contest asks for s, which makes it 412.48 s."),
         ("speed", "4.4866", "in km/h; the contest asks for m/s, which makes it 1.24628 m/s."),
-        ("pitch", "45.2", "No known error gives"),
+        ("pitch", "45.2", "it is 44.7 m larger than the smallest"),
     ],
 )
 def test_a_wrong_number_that_is_right_in_another_unit_is_recognised(client, name, text, words):
