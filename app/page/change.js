@@ -1,5 +1,6 @@
 /** One line on the picture that says what a change of the drawing has done: at once by the quick verdict, then by the certified answer. */
 
+import { isFigure } from "./changes.js";
 import { make } from "./elements.js";
 import { say } from "./text.js";
 
@@ -28,8 +29,15 @@ export function differences(before, now) {
   return changed.slice(0, MOST).map(([key, value]) => wordsOf(key, value, old.get(key)));
 }
 
+/** True if a drawing has the path of another one, or all its things and some of its points or the pieces of its figure, as after a change by hand. */
+function isEdited(before, now) {
+  if (before.points === now.points && before.path === now.path) return true;
+  const keepsThings = before.things.length === now.things.length && before.things.every((thing, k) => thing === now.things[k]);
+  return keepsThings && (before.points.some((point) => now.points.includes(point)) || (isFigure(before) && isFigure(now) && before.path.pieces.length === now.path.pieces.length));
+}
+
 export class Change {
-  /** The newest certified answer, and the one before the change that is being made. @type {any} */
+  /** The newest certified answer, and the one before the change that is being made: {report, drawing}. @type {any} */
   #newest = null;
   #before = null;
   /** The drawing before the last drag. */
@@ -56,13 +64,14 @@ export class Change {
     if (base !== this.#base) [this.#base, this.#before] = [base, this.#newest];
   }
 
-  /** Once the hand rests: what differs from before. report: the certified answer; base: the drawing before the drag, or null without one */
-  certified(report, base) {
+  /** Once the hand rests: what differs from before, unless a file, an example or a proposal has taken its place. report: the certified answer; base: the drawing before the drag, or null without one */
+  certified(report, base, drawing) {
     if (base) this.#begin(base);
     else this.#before = this.#newest;
-    this.#newest = report;
+    this.#newest = { report, drawing };
     const before = this.#before;
-    if (before) this.#say(report.verdict, report.verdict === "passes" ? differences(before, report) : report.failures.slice(0, 1).map(({ sentence }) => sentence));
+    if (!before || !isEdited(before.drawing, drawing)) return this.clear();
+    this.#say(report.verdict, report.verdict === "passes" ? differences(before.report, report) : report.failures.slice(0, 1).map(({ sentence }) => sentence));
   }
 
   /** There is no dance any more with which the next one could be compared. */

@@ -1,7 +1,7 @@
 /** Changes of a drawing: its points and things moved, inserted and removed. Drawings are never changed, only replaced. */
 
 import { EMPTY, freeName, isArea, place, yardOf } from "./drawing.js";
-import { extent, onBorder } from "./square.js";
+import { extent, isInside, onBorder } from "./square.js";
 import { roundedRoute } from "./walk.js";
 
 /** The edited item of a drawing: null for the path, else the number of a thing. */
@@ -139,9 +139,15 @@ export const isFigure = ({ path }) => path?.kind === "route" && path.pieces.ever
 /** True for a figure that has a mirror image: a coil turns one way alone. */
 export const canMirror = ({ path }) => path.pieces.every(({ kind }) => kind !== "coil");
 
+/** The points of a figure, without those in streets. */
+export function dancedOf(drawing) {
+  const danced = drawing.points.filter((point) => isInside(yardOf(drawing), point));
+  return danced.length > 1 ? danced : drawing.points;
+}
+
 /** A figure moved by [m], turned [rad], scaled [1] and mirrored left to right about its middle; it stays a figure. */
 export function figured(drawing, { by = [0, 0], angle = 0, scale = 1, isMirrored = false }) {
-  const { middle: [x, y] } = extent(drawing.points);
+  const { middle: [x, y] } = extent(dancedOf(drawing));
   const [c, s, side] = [scale * Math.cos(angle), scale * Math.sin(angle), isMirrored ? -1 : 1];
   const carry = ([px, py]) => {
     const [dx, dy] = [side * (px - x), py - y];

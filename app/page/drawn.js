@@ -204,7 +204,7 @@ export class Drawn {
 
   /** Say what the last change has done. answer: certified; of: the dance */
   certified(answer, of) {
-    if (of?.kind === "route" && of === this.questions.dance) this.change.certified(answer, this.editor.base);
+    if (of?.kind === "route" && of === this.questions.dance) this.change.certified(answer, this.editor.base, of.drawing);
   }
 
   /** Show that the service refused the dance, with a better reason if one is known. */

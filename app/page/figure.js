@@ -1,6 +1,6 @@
 /** A figure on the picture, such as a proposed ring: what can be done with it, and its numbers. */
 
-import { canMirror, figured } from "./changes.js";
+import { canMirror, dancedOf, figured } from "./changes.js";
 import { hide, make, numberIn, textButton } from "./elements.js";
 import { announce } from "./overlays.js";
 import { extent } from "./square.js";
@@ -10,8 +10,8 @@ import { walkText } from "./walk.js";
 const DEGREE = Math.PI / 180;
 /** Numbers of a figure: name; read(drawing): its value, null without one; set(value, was): what of the figure changes; least, most. */
 const NUMBERS = {
-  x: { words: phrase("Middle of the figure, x [m]"), read: ({ points }) => extent(points).middle[0], set: (x, was) => ({ by: [x - was, 0] }), least: -1e5, most: 1e5 },
-  y: { words: phrase("Middle of the figure, y [m]"), read: ({ points }) => extent(points).middle[1], set: (y, was) => ({ by: [0, y - was] }), least: -1e5, most: 1e5 },
+  x: { words: phrase("Middle of the figure, x [m]"), read: (drawing) => extent(dancedOf(drawing)).middle[0], set: (x, was) => ({ by: [x - was, 0] }), least: -1e5, most: 1e5 },
+  y: { words: phrase("Middle of the figure, y [m]"), read: (drawing) => extent(dancedOf(drawing)).middle[1], set: (y, was) => ({ by: [0, y - was] }), least: -1e5, most: 1e5 },
   r: { words: phrase("Largest radius of its bends [m]"), read: ({ path }) => Math.max(...path.pieces.map(({ radius = 0 }) => radius)) || null, set: (r, was) => ({ scale: r / was }), least: 0.5, most: 1e3 },
   "∠": { words: phrase("Direction in which it begins [°]"), read: ({ path }) => Number(walkText(path)?.split("_")[0].split(",")[2]) / DEGREE, set: (angle, was) => ({ angle: (angle - was) * DEGREE }), least: -360, most: 360 },
 };

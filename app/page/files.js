@@ -28,9 +28,10 @@ const PARTLY = "read only some layers of the drawing";
 /** The times of a FILE; the page shows each dance from its beginning to its end. */
 export const SPAN = ["start", "stop"];
 
-/** Say that a file was opened, for as long as it takes to read it twice, or until a person closes it. unread: what of it the page leaves out; notes: what else it did not take over */
+/** Say that a file was opened; if there is more to say, for as long as it takes to read it twice, or until a person closes it. unread: what of it the page leaves out; notes: what else it did not take over */
 export function announceOpened(name, unread, notes = []) {
-  announce(() => sentencesOf([say("Opened {name}.", { name }), unread.length && say("Left out: {names}. The page shows a dance from beginning to end.", { names: unread.join(between()) }), ...notes]), true, true);
+  const isLong = unread.length + notes.length > 0;
+  announce(() => sentencesOf([say("Opened {name}.", { name }), unread.length && say("Left out: {names}. The page shows a dance from beginning to end.", { names: unread.join(between()) }), ...notes]), isLong, isLong);
 }
 
 /** Say which things of a file have no room beside those that are there. */

@@ -1,10 +1,9 @@
 /** Buttons around a thing, which make it larger, turn it and move it. */
 
-import { figured, turned, withThing } from "./changes.js";
-import { yardOf } from "./drawing.js";
+import { dancedOf, figured, turned, withThing } from "./changes.js";
 import { make } from "./elements.js";
 import { carried, ringOf } from "./photo_place.js";
-import { extent, isInside } from "./square.js";
+import { extent } from "./square.js";
 import { say } from "./text.js";
 import { FINE_STEP, KEYS, STEP } from "./touch.js";
 
@@ -54,15 +53,8 @@ export class Grips {
     const { photo, hasFigure, whole } = this.editor;
     const all = Object.keys(GRIPS);
     if (photo) return { points: ringOf(photo), kinds: all };
-    if (hasFigure) return { points: this.#danced, kinds: all };
+    if (hasFigure) return { points: dancedOf(this.editor.drawing), kinds: all };
     return whole && { ...whole, kinds: whole.points.length > 1 ? ["size", "turn"] : whole.radius === undefined ? [] : ["size"] };
-  }
-
-  /** The points of a figure, without those in streets. */
-  get #danced() {
-    const { points } = this.editor.drawing;
-    const danced = points.filter((point) => isInside(yardOf(this.editor.drawing), point));
-    return danced.length > 1 ? danced : points;
   }
 
   #grip(kind) {
@@ -102,7 +94,7 @@ export class Grips {
 
   /** The drawing with the thing as large, or turned as far, as the pointer went about its middle. */
   around(event, { base, k, from }) {
-    const { points, radius } = this.editor.photo ? { points: ringOf(base) } : this.editor.hasFigure ? base : base.things[this.editor.item];
+    const { points, radius } = this.editor.photo ? { points: ringOf(base) } : this.editor.hasFigure ? { points: dancedOf(base) } : base.things[this.editor.item];
     const [x, y] = this.editor.dance.view.toScreen(...extent(points).middle);
     const [was, is] = [from, [event.clientX, event.clientY]].map((place) => this.editor.inBox(...place)).map(([px, py]) => [px - x, y - py]);
     const [first, now] = [was, is].map((way) => Math.hypot(...way) || 1);

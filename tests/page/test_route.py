@@ -267,8 +267,9 @@ def test_the_verdict_follows_the_hand_and_a_line_says_what_its_change_has_done(o
     assert {name for name, _ in bodies} <= {"check", "course", "trajectory", "healthz"}
     assert [body for name, body in bodies if name == "check" and body.get("details", True)] == []
     mouse.up()
-    person.sees({"#change": re.compile(r"✓ “elm”: 2\.\d\d m free \(was 6\.\d\d\)")}).strikes("Escape").presses("#edit")
-    person.sees({"#change": False})
+    person.sees({"#change": re.compile(r"✓ “elm”: 2\.\d\d m free \(was 6\.\d\d\)")}).strikes("Escape").settles()
+    # An example that takes the place of the path is no change of it.
+    person.presses("#preset", "[data-begin=street]").settles().sees({"#change": False, **YES})
 
 
 RING = (
