@@ -118,13 +118,6 @@ def test_a_command_with_a_file_prints_the_answer_of_the_call(ask, tmp_path, aske
     assert text.encode() == ask.file(asked[0].path[1:], asked[1]) + b"\n"
 
 
-@pytest.mark.parametrize("call", [call for call in EXAMPLES if call.startswith("GET") and call[5:] in MODULE_OF])
-def test_a_command_with_options_prints_the_answer_of_the_call(ask, call):
-    query = EXAMPLES[call].query
-    text = said(call[5:], *(f"--{name.replace('_', '-')}={value}" for name, value in query.items()), "--json")
-    assert text.encode() == ask.file(call[5:], **query) + b"\n"
-
-
 @pytest.mark.parametrize("name", [name for name, question in QUESTIONS.items() if question.several])
 def test_several_dances_are_described_beside_one_and_null_stands_for_one(ask, name):
     question = QUESTIONS[name]

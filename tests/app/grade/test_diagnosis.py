@@ -136,8 +136,9 @@ def test_an_error_of_no_known_kind_is_not_diagnosed(name):
 
 def test_files_are_compared_by_numbers_that_no_common_error_gives():
     """The same cells of each file; none of a right one, a rounded one, or one with an error that many make."""
-    assert len(grade(first(noise())).unusual) == 24
-    assert grade(first(noise())).unusual == grade(first(noise())).unusual
+    unusual, again = (grade(first(noise())).unusual for _ in range(2))
+    assert unusual == again
+    assert len(unusual) == 24
     assert len(grade(first(one_cell())).unusual) == 1
     assert len(grade(first(spiral(pitch=0.5))).unusual) == 24
     for common in (spiral(), rounded(spiral(), 3), spiral(dragon=Dragon(overhang=0.0)), students.outside(0.0)):
@@ -245,14 +246,15 @@ def test_equal_speeds_of_two_decimals_are_right_ones_rounded(decimals):
 @pytest.mark.parametrize("speed, verdict", [("1.00", "incomplete"), ("1.000000", "wrong"), ("-1.00", "wrong")])
 def test_text_shows_the_decimals_of_equal_speeds(speed, verdict):
     """All right speeds are 1.00 to two decimals, whatever the decimals of the places."""
-    text = students.lines(spiral(SPIRAL_TIMES[TENTH]), SPIRAL_TIMES[TENTH]).decode()
+    times = SPIRAL_TIMES[TENTH]
+    text = students.lines(spiral(times), times).decode()
     lines = [line.rpartition(",")[0] + f",{speed}" for line in text.splitlines()[1:]]
     result = grade("\n".join(["time,handle,x,y,speed", *lines]).encode())
     causes = {"1.00": [], "1.000000": ["equal_speeds"], "-1.00": ["speeds_negated"]}
     assert result.verdict == verdict
     assert errors(result) == causes[speed]
     # So do the formats of a workbook, in which 1.00 is stored as 1.
-    book = openpyxl.load_workbook(BytesIO(students.by_xlsxwriter(students.rows_of(spiral(SPIRAL_TIMES), SPIRAL_TIMES))))
+    book = openpyxl.load_workbook(BytesIO(students.by_xlsxwriter(students.rows_of(spiral(times), times))))
     for row in book["速度"].iter_rows(min_row=2, min_col=2):
         for cell in row:
             cell.value = float(speed)

@@ -61,7 +61,7 @@ def by_pandas(sheets):
 
 @pytest.mark.parametrize("writer", [by_openpyxl, by_pandas, None], ids=["openpyxl", "pandas", "libreoffice"])
 def test_a_few_instants_of_other_tools_are_right(writer):
-    """`make deep` takes all instants, and `make libreoffice` has LibreOffice write all of them."""
+    """`make libreoffice` has LibreOffice write all of them."""
     spiralled = rows_of(spiral(SPIRAL_TIMES[:FEW]), SPIRAL_TIMES[:FEW])
     turned = rows_of(turn(TURN_TIMES[:FEW]), TURN_TIMES[:FEW])
     for name, sheets in {"result1": spiralled, "result2": three()[1], "result4": turned}.items():

@@ -26,15 +26,3 @@ ALL = [SQUARE, WALL, TREE, COURT]
 )
 def test_a_text_names_the_nearest_thing(at, height, owner):
     assert names_of(ALL, [label_of("words", at, height, 0.0, 0.0)]) == ({} if owner is None else {owner: "words"})
-
-
-def test_a_text_reaches_as_far_as_its_letters():
-    # Ten letters of 1 m: 6 m to the right of its place, which is 5 m from the wall; centred, 3 m to both sides.
-    for align, owner in ((0.0, 1), (0.5, 0), (1.0, 0)):
-        assert names_of(ALL, [label_of("ten letter", (14, 20), 1.0, 0.0, align)]) == {owner: "ten letter"}
-    assert names_of(ALL, [label_of("ten letter", (25, 13), 1.0, 1.5707963, 0.0)]) == {1: "ten letter"}
-
-
-def test_the_first_text_names_a_thing():
-    labels = [label_of(words, (10, 10), 0.5, 0.0, 0.0) for words in ("elm", "oak")]
-    assert names_of(ALL, labels) == {2: "elm"}

@@ -43,19 +43,12 @@ def benches(answer):
     return times, motion, shapely.polygons(corners.reshape(-1, 4, 2)).reshape(corners.shape[:2])
 
 
-def test_ground_lanes_gates_speed_and_stop_are_those_of_small_steps(ask):
+def test_lanes_and_gates_are_those_of_small_steps_and_spectators_stand_as_far_back_as_asked(ask):
     answer = ask("safety-sheet", BODY)
     times, motion, outlines = benches(answer)
-    swept, kept, loose = (shapely.from_geojson(json.dumps(one)) for one in (
-        answer["swept"]["ground"], answer["spectators"], answer["loose_tail"]["ground"]
-    ))  # fmt: skip
-    assert shapely.contains(swept, outlines[::20]).all()
-    assert swept.area == pytest.approx(answer["swept"]["area"])
+    swept, kept = (shapely.from_geojson(json.dumps(one)) for one in (answer["swept"]["ground"], answer["spectators"]))
     assert shapely.contains(kept, shapely.buffer(swept, 2.0 + 0.05))
     assert not shapely.contains(kept, shapely.buffer(swept, 2.0 + 0.3))
-    joint = motion.position[::20, 3]
-    assert answer["loose_tail"]["reach"] == pytest.approx(1.65 + np.hypot(1.65 + 0.275, 0.15))
-    assert shapely.contains(loose, shapely.buffer(shapely.points(joint), 0.999 * answer["loose_tail"]["reach"])).all()
     assert answer["loose_tail"]["beyond_spectators"]
     lanes = [{"name": f"{y} m north", "points": [[0, y], [60, y]], "width": 4} for y in (5, 9)]
     wider = ask("safety-sheet", BODY | {"spectators": 4.0, "lanes": lanes})
@@ -78,8 +71,6 @@ def test_ground_lanes_gates_speed_and_stop_are_those_of_small_steps(ask):
     (gate,) = answer["gates"]
     passed = [times[np.argmax(motion.position[:, k, 0] >= 50.0)] for k in (0, -1)]
     assert_near((gate["head"], gate["lasts"]), (passed[0], 2.86 + 4 * 1.65), 0.02)
-    assert answer["fastest"]["speed"] == pytest.approx(motion.speed.max())
-    assert_near(answer["stopping"]["distance"], 1.5 * motion.speed.max(), 1e-6)
 
 
 def test_lanes_and_gates_of_the_venue_are_those_of_the_request(ask):
@@ -139,6 +130,8 @@ def test_several_dragons_have_one_sheet_whose_numbers_are_those_of_small_steps_o
     assert shapely.contains(swept, passed)
     assert shapely.contains(shapely.buffer(passed, 0.02), swept)
     reach = 1.65 + np.hypot(1.65 + 0.275, 0.15)
+    assert swept.area == pytest.approx(answer["swept"]["area"])
+    assert answer["loose_tail"]["reach"] == pytest.approx(reach)
     joints = np.concatenate([motion.position[::50, 3] for motion in motions])
     assert shapely.contains(loose, shapely.buffer(shapely.points(joints), 0.999 * reach)).all()
     kept = shapely.from_geojson(json.dumps(answer["spectators"]))

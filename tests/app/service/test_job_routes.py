@@ -208,13 +208,6 @@ def test_nobody_is_shown_the_jobs_of_others(service):
     assert service.client.get(f"/jobs/{'a' * 48}").status_code == 404
 
 
-def test_asking_for_a_job_later_makes_one_job(service):
-    answer = service.client.post("/jobs", json=SHORT, headers=LATER)
-    assert answer.status_code == 202
-    assert answer.json()["processID"] == "collision_time"
-    service.finished(answer.headers["location"])
-
-
 @pytest.mark.thorough
 def test_a_service_that_ends_tells_its_listeners_so(tmp_path):
     with JobService(tmp_path) as service:
@@ -228,15 +221,6 @@ def test_a_service_that_ends_tells_its_listeners_so(tmp_path):
         service.process.wait(PATIENCE)
         # A process that waited for a job, or is just starting, ends when it sees that its parent has ended.
         wait_for(lambda: not service.processes())
-
-
-@pytest.mark.thorough
-def test_many_removals_keep_no_page_waiting(service):
-    addresses = [service.post(SHORT) for _ in range(10)]
-    for address in addresses:
-        service.finished(address)
-    urls = [f"http://127.0.0.1:{service.port}{address}" for address in addresses]
-    assert keeps_no_page_waiting(service, lambda k: httpx.delete(urls[k % 10], timeout=PATIENCE)) == {204, 404}
 
 
 SMALL_SWEEP = {"question": "collision_time", "request": {"benches": 20}, "over": {"pitch": [0.5, 0.55]}}

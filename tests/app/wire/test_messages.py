@@ -87,29 +87,6 @@ def test_a_refusal_tells_the_value_the_unit_the_limit_and_what_to_change_from_it
     assert [f"{one.get('pointer') or one['name']}: {one['detail']}" for one in errors] == [SENTENCES[request_]]
 
 
-def test_a_refusal_has_the_parts_of_its_sentence_with_numbers_and_units(ask):
-    problem = ask.send("collision-time?pitch=55&benches=x").json()
-    benches, pitch = problem["errors"]
-    assert problem["detail"] == f"{benches['detail']} (and 1 more)"
-    assert pitch == {
-        "name": "pitch",
-        "detail": "pitch must be at most 10 m, got 55 m: lengths are in metres, and 55 cm is 0.55 m",
-        "sentence": "“Pitch” must be at most 10 m, got 55 m: lengths are in metres, and 55 cm is 0.55 m.",
-        "template": "{field} must be at most {most}",
-        "got": {"text": "55 m", "value": 55.0, "unit": "m"},
-        "reason": "lengths are in metres, and {cm} is {m}",
-        "values": {
-            "field": {"text": "pitch", "parameter": "pitch"},
-            "most": {"text": "10 m", "value": 10.0, "unit": "m"},
-            "cm": {"text": "55 cm", "value": 55.0, "unit": "cm"},
-            "m": {"text": "0.55 m", "value": 0.55, "unit": "m"},
-        },
-    }
-    assert benches["template"] == "{field} must be a whole number"
-    assert benches["got"] == {"text": '"x"', "value": "x"}
-    assert [word for word in ("template", "got", "values") if benches[word] != problem[word]] == []
-
-
 def test_a_refusal_of_too_many_parameters_speaks_of_no_body(ask):
     answer = ask.send("turn?" + "&".join(f"n{k}=1" for k in range(150)))
     assert answer.status_code == 422

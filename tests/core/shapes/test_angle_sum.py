@@ -11,15 +11,12 @@ from core.shapes.overlaps import Engine, overlaps
 from core.shapes.rectangles import (
     angle_sum_overlap,
     corners,
-    literal_corners,
     paper_corners,
 )
 from tests.support.near import assert_near
 from tests.support.refused import refused
 from tests.support.scenes import LENGTH, WIDTH, benches, crowd, outside
 
-# Rounding of points and distances within ten metres of the origin [m].
-ROUNDING = 2e-14
 SIZE = np.array([LENGTH, WIDTH])
 
 
@@ -30,16 +27,6 @@ def test_paper_corners_are_the_rectangle_whichever_way_its_arctan_points(heading
     result = paper_corners(np.array([3.0, 1.0, heading + turn]), SIZE)
     apart = np.linalg.norm(result[:, None] - expected[None], axis=-1)
     assert_near([apart.min(axis=0), apart.min(axis=1)], np.zeros((2, 4)), 1e-12)
-
-
-@pytest.mark.parametrize("theta", [0.0, 0.4, math.pi / 4, math.pi / 2, 2.5])
-def test_literal_corners_are_those_of_eq_12_as_printed(theta):
-    cos = math.cos(theta)
-    sin = math.sin(theta)
-    signs = np.array([[1, -1], [1, 1], [-1, 1], [-1, -1]])
-    # y = l / 2 sin theta + w / 2 cos theta with the signs of x, where a rectangle has the other sign of w
-    expected = [3.0, 1.0] + 0.5 * signs * SIZE @ [[cos, sin], [sin, cos]]
-    assert_near(literal_corners(np.array([3.0, 1.0, theta]), SIZE), expected, ROUNDING)
 
 
 SQUARE = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])

@@ -4,15 +4,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.special import ndtr
 
 from core import (
-    Arc,
-    Budget,
     Dance,
     Dragon,
-    Line,
-    Route,
     Spiral,
     Wobble,
     bench_poses,
@@ -21,9 +16,7 @@ from core import (
     separation,
     trajectory,
 )  # fmt: skip
-from core.sampling import bisect
 from core.tolerance.chance import CONFIDENCE, clopper_pearson
-from core.tolerance.union_bound import union_bound
 from tests.support.near import assert_near
 from tests.support.refused import refused
 from tests.support.scenes import lengths_and_widths
@@ -33,11 +26,6 @@ SPIRAL = Dance(Dragon(20), Spiral())
 # Shortly before the first contact of that dance [s].
 LATE = {"start": 402.0, "stop": 410.0}
 MODEL = Wobble(0.02, 0.01, 4.0, hole=0.06, pin=0.05)
-
-# A hairpin: bench 0 is on the way back while bench 4 is on the way out, 3 m from it, both 2.8 m wide.
-WIDE = Dragon.of([1.65] * 5, [2.8, 0.3, 0.3, 0.3, 2.8], [0.0] * 5)
-HAIRPIN = Route([Line((-20, 0), (0, 0)), Arc((0, 1.5), 1.5, -0.5 * np.pi, np.pi), Line((0, 3), (-20, 3))])
-OPPOSITE = 20.0 + 1.5 * np.pi + 1.95
 
 
 def poses_of(holes):
@@ -66,52 +54,6 @@ def correlate(wishes, along):
     """Make independent numbers (N, n + 1, ...) of variance 1 those of people who heed the one before them."""
     for k in range(1, wishes.shape[1]):
         wishes[:, k] = along * wishes[:, k - 1] + np.sqrt(1.0 - along**2) * wishes[:, k]
-
-
-def gap_of_all_alike(places, left, aside):
-    """Gap of benches 0 and 4 on the hairpin when everybody wants to stand so far to the left [m]."""
-    poses = poses_of(laid_out((places + aside * left) @ [1.0, 1j], WIDE.chords))
-    return float(separation(poses[:1], (1.65, 2.8), poses[4:], (1.65, 2.8)).separation[0])
-
-
-def chance_to_exceed(limits, memory):
-    """The probability that an AR(1) process of variance 1 ever exceeds its limit of the instant, by quadrature."""
-    grid = np.linspace(-6.0, 6.0, 2_401)
-    width = grid[1] - grid[0]
-    fresh = np.sqrt(1.0 - memory**2)
-    below = np.exp(-0.5 * grid**2) / np.sqrt(2.0 * np.pi)
-    step = np.exp(-0.5 * ((grid[:, None] - memory * grid) / fresh) ** 2) / (fresh * np.sqrt(2.0 * np.pi)) * width
-    for k, limit in enumerate(limits):
-        below = np.where(grid < limit, below if k == 0 else step @ below, 0.0)
-    return 1.0 - float(below.sum() * width)
-
-
-def test_the_probability_of_a_hairpin_is_that_of_its_quadrature():
-    """With a long correlation along the chain all stand alike, and one number at each instant decides."""
-    dance = Dance(WIDE, HAIRPIN)
-    size = 0.05
-    stop = OPPOSITE + 0.5
-    result = contact_probability(dance, Wobble(size, 0.0, 0.625, 1e9), 4_000, 1, start=OPPOSITE, stop=stop)
-    assert result.instants == 5
-    placed = trajectory(dance, np.linspace(OPPOSITE, stop, 5))
-    limits = []
-    for places, velocity in zip(placed.position, placed.velocity, strict=True):
-        left = np.stack([-velocity[:, 1], velocity[:, 0]], axis=1) / np.hypot(*velocity.T)[:, None]
-        limit = bisect(lambda aside: gap_of_all_alike(places, left, aside) <= 0.0, 0.0, 0.3)[1]  # noqa: B023
-        limits.append(limit / size)
-    memory = np.exp(-result.step / 0.625)
-    exact = chance_to_exceed(limits, memory)
-    # each instant alone is less likely, and independent instants would be more
-    assert 1.0 - ndtr(min(limits)) < 0.7 * exact < 0.7 * (1.0 - np.prod(ndtr(limits)))
-    assert result.limits[0] < exact < result.limits[1] < result.limits[0] + 0.02
-    assert {tuple(pair) for pair in result.benches.tolist()} == {(0, 4)}
-    assert result.strays[result.sample].min() > result.tolerance > 0.0
-    assert result.contacts <= result.strayed < 4_000
-    for deviations, factor in ((4.0, 630.0), (5.0, 520.0)):  # docs/tolerance.md: far from sharp
-        part = min(limits) / deviations
-        rare = chance_to_exceed([limit / part for limit in limits], memory)
-        bound = union_bound(dance, Wobble(part * size, 0.0, 0.625, 1e9), np.linspace(OPPOSITE, stop, 5), Budget())
-        assert 0.99 * factor < bound / rare < 1.01 * factor
 
 
 def test_each_dragon_is_the_one_that_is_laid_out_step_by_step():
