@@ -7,6 +7,9 @@ import { roundedRoute } from "./walk.js";
 /** The edited item of a drawing: null for the path, else the number of a thing. */
 export const pointsOf = (drawing, item) => (item === null ? drawing.points : (drawing.things[item]?.points ?? []));
 
+/** Without the path of a figure or a file, whose dance started on that path. */
+const freed = (/** @type {any} */ { path, start }) => ({ path: null, start: path ? null : start });
+
 /** True if two points are one place, which the laps of a ring pass again and again. */
 const isSame = (a, b) => a?.[0] === b?.[0] && a?.[1] === b?.[1];
 /** Numbers of the points of an item at the place of point k: on a path all its laps, elsewhere this one. */
@@ -19,7 +22,7 @@ export function placesOf(drawing, item) {
 
 /** The drawing with other points of one item; gates stay on the border. */
 export function withPoints(drawing, item, points) {
-  if (item === null) return { ...drawing, points, path: null };
+  if (item === null) return { ...drawing, points, ...freed(drawing) };
   const changed = withThing(drawing, item, { points });
   return isArea(drawing.things[item]) ? gated(changed, drawing.things[item].points) : changed;
 }
@@ -67,7 +70,7 @@ export function removed(drawing, item, k) {
   const isStraight = (leg) => drawing.straight.includes(leg);
   // The two legs at this point become one, straight if both were.
   const legs = points.slice(1).flatMap((_, leg) => (leg < k - 1 ? isStraight(leg) : leg === k - 1 ? isStraight(leg) && isStraight(k) : isStraight(leg + 1)) ? [leg] : []);
-  return { ...drawing, points, straight: legs, path: null };
+  return { ...drawing, points, straight: legs, ...freed(drawing) };
 }
 
 /** The drawing with point k of an item, and all laps through it, at another place. */
@@ -81,7 +84,7 @@ export function moved(drawing, item, k, point) {
 /** The drawing with a leg made straight, or curved again. */
 export function bent(drawing, leg) {
   const { straight } = drawing;
-  return { ...drawing, path: null, straight: straight.includes(leg) ? straight.filter((one) => one !== leg) : [...straight, leg].sort((a, b) => a - b) };
+  return { ...drawing, ...freed(drawing), straight: straight.includes(leg) ? straight.filter((one) => one !== leg) : [...straight, leg].sort((a, b) => a - b) };
 }
 
 /** A thing of a drawing moved by [m]; with a square go its gates and its border without streets. */

@@ -51,6 +51,8 @@ export class Dance {
   above = [];
   /** (x, y) -> whether a tap there was for a drawing [px]; null: none is edited */
   tapped = null;
+  /** Called with the number of the dragon of several whose head is tapped, if it is not the chosen one. @type {((k: number) => void) | null} */
+  headTapped = null;
   /** True if the path is drawn by hand, so that it must be clearly visible. */
   drawn = false;
   #path = null;
@@ -72,7 +74,7 @@ export class Dance {
   constructor(canvas, inset, { moved, picked }) {
     this.canvas = canvas;
     this.inset = inset;
-    this.view = new View(canvas, { moved, clicked: (x, y) => this.tapped?.(x, y) || picked(this.#nearest(x, y)) });
+    this.view = new View(canvas, { moved, clicked: (x, y) => this.#isHead(x, y) || this.tapped?.(x, y) || picked(this.#nearest(x, y)) });
     this.restyle();
   }
 
@@ -260,6 +262,19 @@ export class Dance {
     }
     pen.fill(pen.circle(x, y, 6), this.#colours.card);
     pen.stroke(pen.circle(x, y, 6), this.#colours.text, 3);
+  }
+
+  /** The number of the dragon whose head is at a place [px]: 0 for the one shown alone; -1 for none. */
+  headUnder(px, py) {
+    return this.scene.pose ? this.#parts.findIndex(({ pose: { x: [x], y: [y] } }) => this.view.nearest({ x: [x], y: [y] }, px, py, PICK_RADIUS) !== null) : -1;
+  }
+
+  /** True after a tap on the head of another one of several dragons, which is chosen now. */
+  #isHead(px, py) {
+    const k = this.scene.parts ? this.headUnder(px, py) : -1;
+    if (k < 0 || this.#parts[k].pose === this.scene.pose) return false;
+    this.headTapped?.(k);
+    return true;
   }
 
   #nearest(px, py) {

@@ -91,6 +91,7 @@ export class Dragons {
     );
     this.offer = make("p", { className: "buttons" }, make("span", { className: "hint", "data-text": "Or begin with:" }), ...presets);
     this.box.append(this.panel, this.offer);
+    dance.headTapped = (k) => this.choose(k);
     this.judgement = new Judgement($("#judgement"), (failure) => player.seek(failure.time), () => {});
   }
 

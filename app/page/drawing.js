@@ -3,7 +3,7 @@
  *
  * points: [[x, y]] [m]; straight: numbers of the legs that are straight; radius: of rounded corners [m]; begin: place of
  * the head at time 0 [m]; limit: of every speed [m/s] or null; path: a proposed one, or one from a file that is no list of
- * points, or null: it is danced until a point is edited; start: of the dance on it [s], or null: with the whole dragon on it
+ * points, or null: it is danced until a point is edited; start: of the dance [s], or null: with the whole dragon on the path
  * things: [{kind, name, points, radius, holes, heading, use, street_width, street_length}]: one area to stay in, blocks,
  * circles, walls, lanes to keep free, and gates, which are both way in and way out unless their use is in or out, and
  * whose heading [rad] is null if it is straight into the square; origin: of a map, or null
@@ -111,7 +111,7 @@ const aside = (type, coordinates, properties) => ({ type: "Feature", properties,
 
 /** Path, venue and speeds of the dance: the fields of /check that are not null. */
 export function placeOf(drawing) {
-  const [venue, limit, start] = [venueOf(drawing), drawing.limit, drawing.path && drawing.start];
+  const [venue, limit, start] = [venueOf(drawing), drawing.limit, drawing.start];
   return { ...(venue && { venue }), ...(limit && { speed_limit: limit }), ...(start !== null && { start }) };
 }
 
@@ -155,7 +155,7 @@ export function drawingOf({ path, venue, speed_limit: limit, start = null }, nam
   const yard = venue ? featuresOf(venue).find(isYard) : null;
   const drawing = { ...EMPTY, limit: limit ?? null, things: venue ? thingsOf(venue, nameOf) : [], origin, grid, yard: yard ? yard.geometry.coordinates.slice(0, -1).map(place) : null };
   if (!path) return drawing;
-  return { ...drawing, ...(legsOf(path) ?? { path, start, points: [], begin: path.start ?? 0 }) };
+  return { ...drawing, start, ...(legsOf(path) ?? { path, points: [], begin: path.start ?? 0 }) };
 }
 
 /** The points and straight legs of a path, if it consists of lines and of curves that follow them. */
@@ -212,7 +212,7 @@ export function toAddress(drawing) {
     things: texts.join("~"),
     walk,
     raw: path && !walk ? JSON.stringify(pathOf(drawing)) : "",
-    start: path ? (start ?? "") : "",
+    start: start ?? "",
     origin: origin ? `${origin.longitude},${origin.latitude}` : "",
     grid: grid ? `${grid.x},${grid.y}` : "",
     yard: yard ? pointsText(yard) : "",

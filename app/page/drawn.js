@@ -55,7 +55,7 @@ export class Drawn {
     this.draw = draw;
     this.steps = stepsOf(state);
     const course = () => (questions.course?.drawing === state.get("drawing") ? questions.course : null);
-    this.editor = new Editor(dance, state, this.steps, course, () => this.show());
+    this.editor = new Editor(dance, state, this.steps, course, () => (this.#isEmpty ? null : questions.course), () => this.show());
     questions.isHeld = () => this.editor.isDragging;
     const files = new Files(state, this.steps, service, questions, several);
     this.photo = new Photo(state, this.editor, () => this.#photographed());
@@ -83,6 +83,11 @@ export class Drawn {
   get #isEmpty() {
     const { points, path } = this.state.get("drawing");
     return points.length < 2 && !path;
+  }
+
+  /** What comes next, by its name in keys.js; null while it is waited for. */
+  get next() {
+    return this.#isEmpty ? this.propose.next : "answers";
   }
 
   #visible() {

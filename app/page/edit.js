@@ -7,8 +7,9 @@ import { $, $$, SMALL_TYPE, inType, make, onClick } from "./elements.js";
 import { Grips } from "./grips.js";
 import { helpOf } from "./helps.js";
 import { announce } from "./overlays.js";
-import { crossesItself, onBorder, rectangle } from "./square.js";
+import { crossesItself, extent, onBorder, rectangle } from "./square.js";
 import { say } from "./text.js";
+import { Start } from "./start.js";
 import { Stroke } from "./stroke.js";
 import { FINE_STEP, KEYS, STEP, decimetres, nameUnder, nearestLeg, squared, thingUnder, thingsWithin } from "./touch.js";
 
@@ -30,23 +31,28 @@ export class Editor extends Chosen {
   /** Points between which a distance is measured, at most two [m]. @type {number[][]} */
   measured = [];
   #knots = [];
+  /** What is heard of the chosen thing. */
+  #told = make("p", { id: "told", className: "unseen", role: "status" });
   /** The frame that chooses things. */
   #frame = make("div", { className: "frame", hidden: true });
   #grips = new Grips(this, (event, kind) => this.#hold(event, { k: kind }), this.#dragging);
   #drag = null;
+  /** @type {Start} */
+  #start;
   /** @type {Stroke} */
   #stroke;
 
   /**
-   * course(): the drawn path from the service; chosen(): called when another item is edited
+   * course(): the drawn path from the service, or null; sampled(): the same while a newer one is awaited; chosen(): called when another item is edited
    * @param {State} state
    * @param {Steps} steps
    */
-  constructor(dance, state, steps, course, chosen) {
+  constructor(dance, state, steps, course, sampled, chosen) {
     super(dance, state, steps, chosen);
     this.course = course;
     this.box = $("#knots");
-    this.box.after(make("div", { id: "grips" }, this.#frame, ...Object.values(this.#grips.buttons)));
+    this.#start = new Start(this, sampled, (event) => this.#hold(event, { k: "start" }), this.#dragging);
+    this.box.after(this.#told, make("div", { id: "grips" }, this.#frame, this.#start.button, ...Object.values(this.#grips.buttons)));
     dance.tapped = (x, y) => this.#tap(x, y);
     for (const button of $$("[data-tool]")) button.addEventListener("click", () => this.take(button.dataset.tool));
     onClick("#edit", () => this.turn(!this.active));
@@ -58,6 +64,8 @@ export class Editor extends Chosen {
     canvas.addEventListener("pointermove", (event) => this.#pull(event));
     for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, (event) => this.#drop(event));
     addEventListener("keydown", (event) => this.#command(event));
+    // A tool that was taken by a key is used by keys.
+    addEventListener("click", ({ detail, target }) => !detail && target instanceof Element && target.matches(":is([data-tool], [data-add]):not([data-tool=kits], [data-add=kits])") && this.active && canvas.focus({ preventScroll: true }));
     this.#stroke = new Stroke(dance, (points) => this.#extend(points));
   }
 
@@ -185,13 +193,36 @@ export class Editor extends Chosen {
     return pointsOf(this.drawing, this.item);
   }
 
+  /** The name and the place of the chosen thing are heard. */
+  #tellPlace() {
+    const [x, y] = extent(this.thing.points).middle.map((one) => Number(one.toFixed(2)));
+    this.#told.textContent = say("{name}: x {x} m, y {y} m", { name: this.names, x, y });
+  }
+
+  /** The keys [ and ] choose one thing of the square after another. True if they did. */
+  #step(key) {
+    const { things } = this.drawing;
+    const way = { "[": -1, "]": 1 }[key];
+    if (!way || !things.length || !this.canEdit) return false;
+    this.choose(((this.item ?? (way > 0 ? -1 : 0)) + way + things.length) % things.length);
+    this.dance.view.reveal(...extent(this.thing.points).middle);
+    this.#tellPlace();
+    return true;
+  }
+
   /** Arrow keys move what is chosen, and Delete removes it. */
   #nudge(event) {
+    if (!event.ctrlKey && !event.metaKey && !event.altKey && this.#step(event.key)) {
+      event.preventDefault();
+      return event.stopImmediatePropagation();
+    }
     if (!this.items.length || (this.isDrawing && !this.others.length) || event.ctrlKey || event.metaKey || event.altKey) return;
     const way = KEYS[event.key];
     const by = event.shiftKey ? FINE_STEP : STEP;
-    if (way) this.steps.take(shiftedAll(this.drawing, this.items, way.map((one) => one * by)), `nudge ${this.items}`);
-    else if (event.key === "Delete" || event.key === "Backspace") this.remove();
+    if (way) {
+      this.steps.take(shiftedAll(this.drawing, this.items, way.map((one) => one * by)), `nudge ${this.items}`);
+      this.#tellPlace();
+    } else if (event.key === "Delete" || event.key === "Backspace") this.remove();
     else return;
     event.preventDefault();
     event.stopImmediatePropagation();
@@ -216,6 +247,7 @@ export class Editor extends Chosen {
     while (this.#knots.length > points.length) this.#knots.pop().remove();
     while (this.#knots.length < points.length) this.box.append(this.#knot(this.#knots.length));
     this.#grips.show();
+    this.#start.show();
     const places = placesOf(this.drawing, this.item);
     points.forEach(([x, y], k) => {
       this.#knots[k].hidden = !places.has(k);
@@ -237,6 +269,11 @@ export class Editor extends Chosen {
       if (!isNear) shown.push([px, py]);
     });
     this.#grips.place();
+    this.#start.place();
+  }
+
+  #begun(event, drag) {
+    return this.#start.along(event, drag);
   }
 
   #formed(event, drag) {
@@ -328,7 +365,7 @@ export class Editor extends Chosen {
     drag.far ||= Math.hypot(event.clientX - drag.from[0], event.clientY - drag.from[1]) > TRAVEL;
     if (!drag.far) return;
     if (drag.k === "frame") return this.#framed(event, drag);
-    const change = drag.k === null || drag.k === "move" ? this.#carried : drag.k in this.#grips.buttons ? this.#formed : this.#bent;
+    const change = drag.k === "start" ? this.#begun : drag.k === null || drag.k === "move" ? this.#carried : drag.k in this.#grips.buttons ? this.#formed : this.#bent;
     const drawing = change.call(this, event, drag);
     if (change === this.#bent && this.#crosses(drawing) && !this.#crosses(drag.base)) {
       // The last one that does not cross itself stays.
@@ -454,6 +491,10 @@ export class Editor extends Chosen {
       return true;
     }
     if (this.tool === "photo") return true;
+    if (this.tool === "path" && this.item === null && this.dance.headUnder(px, py) >= 0) {
+      this.#start.choose();
+      return true;
+    }
     if (this.tool === "measure") {
       this.measured = [...(this.measured.length < 2 ? this.measured : []), this.dance.view.toWorld(px, py)];
       this.chosen();

@@ -32,7 +32,7 @@ export class Figure {
       return make("input", { inputMode: "decimal", autocomplete: "off", "data-label": number.words, onchange });
     });
     const labels = Object.keys(NUMBERS).map((name, k) => make("label", {}, `${name} `, this.fields[k], " "));
-    this.box = make("p", { id: "figure", hidden: true }, make("b", { "data-text": phrase("Figure") }), " ", ...labels, this.turned, " ", freed);
+    this.box = make("p", { id: "figure", className: "bar", hidden: true }, make("b", { "data-text": phrase("Figure") }), " ", ...labels, this.turned, " ", freed);
     stage.append(this.box);
   }
 

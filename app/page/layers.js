@@ -1,8 +1,9 @@
 /** A box in which a person chooses what of a large drawing is opened: some of its layers, or an area of it. */
 
 import { Problem, Superseded } from "./api.js";
+import { openBox } from "./box.js";
 import { make, numberIn, textButton } from "./elements.js";
-import { phrase, say, writeTexts } from "./text.js";
+import { phrase, say } from "./text.js";
 
 /** Labels of the sides of an area, and what stands in their empty fields. */
 const SIDES = [[phrase("Least x [m]"), "x"], [phrase("Least y [m]"), "y"], [phrase("Largest x [m]"), "x"], [phrase("Largest y [m]"), "y"]];
@@ -15,16 +16,10 @@ const quoted = (name) => (/[,"]/.test(name) ? `"${name.replaceAll('"', '""')}"` 
  * the part breaks; part: of the query of /places
  */
 export function chooseParts(layers, problem, open) {
-  document.getElementById("drawing-parts")?.remove();
   const why = make("p", { className: "error", role: "alert", textContent: problem.sentence });
   const boxes = layers.map(({ name }) => make("input", { type: "checkbox", value: name }));
   const rows = layers.map(({ name, edges }, k) => make("li", {}, make("label", {}, boxes[k], `${name} · ${say("{edges} edges", { edges })}`)));
   const sides = SIDES.map(([label, placeholder]) => make("input", { inputMode: "decimal", autocomplete: "off", "data-label": label, placeholder }));
-  const leave = () => {
-    box.remove();
-    removeEventListener("keydown", hear);
-  };
-  const hear = ({ key }) => (key === "Escape" || !box.isConnected) && leave();
   const take = async () => {
     const names = boxes.filter(({ checked }) => checked).map(({ value }) => value);
     const numbers = sides.map(({ value }) => numberIn(value));
@@ -41,13 +36,9 @@ export function chooseParts(layers, problem, open) {
     }
   };
   const go = textButton("Open", take, { id: "parts-open", className: "main" });
-  const close = textButton("Close", leave);
-  const title = make("h2", { id: "drawing-parts-title", "data-text": "Open a part of the drawing" });
+  const close = textButton("Close", () => leave());
   const area = make("p", {}, make("span", { "data-text": "Only what reaches into x, y to x, y" }), ...sides, make("span", { className: "unit", textContent: "m" }));
-  const box = make("div", { id: "drawing-parts", popover: "manual", role: "dialog", "aria-labelledby": title.id }, title, why, make("p", { className: "hint", "data-text": "Choose the layers with the square, what stands in it, and the path; or an area." }), make("ul", {}, ...rows), area, make("p", { className: "buttons" }, go, close));
-  document.body.append(box);
-  writeTexts();
-  box.showPopover();
-  addEventListener("keydown", hear);
+  const hint = make("p", { className: "hint", "data-text": "Choose the layers with the square, what stands in it, and the path; or an area." });
+  const leave = openBox("drawing-parts", make("h2", { "data-text": "Open a part of the drawing" }), [why, hint, make("ul", {}, ...rows), area, make("p", { className: "buttons" }, go, close)]);
   boxes[0].focus();
 }

@@ -390,6 +390,12 @@ async function openChallenge() {
   challenge.show();
 }
 
+/** The list of keys, with what comes next. */
+async function openKeys() {
+  const box = await parts.load("keys");
+  box.openKeys(state.get("path") === "route" ? route?.next : null);
+}
+
 async function openSharing() {
   const { Sharing } = await parts.load("sharing");
   sharing ??= new Sharing(state);
@@ -464,7 +470,15 @@ function listen() {
   whenReached(["#five"], openStrip);
   whenReached(["#stage"], openRoute, OF_FILES);
   onClick("#several", () => openDragons().then((one) => one.add()));
-  addEventListener("keydown", ({ key }) => key === "Escape" && endMessage());
+  addEventListener("keydown", (event) => {
+    const { key, target } = event;
+    if (key === "Escape") endMessage();
+    // A number has no such character.
+    if (key !== "?" || (target instanceof Element && target.matches("input:not([inputmode=decimal]), textarea, select"))) return;
+    event.preventDefault();
+    openKeys();
+  });
+  onClick("#keys-open", openKeys);
   // A tap on a number chooses all of it, so that typing replaces it; later than the tap, which sets the cursor.
   const chooseNumber = (target) => /decimal|numeric/.test(target.inputMode) && setTimeout(() => document.activeElement === target && target.select());
   addEventListener("focusin", ({ target }) => chooseNumber(target));

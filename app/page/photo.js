@@ -69,9 +69,9 @@ export class Photo {
     this.angle = field("photo-angle", phrase("Turned to the left by [°]"), (angle) => Math.abs(angle) <= 360 && { angle: angle * DEGREE - this.#place.angle });
     this.wide = field("photo-wide", phrase("Width on the ground [m]"), (wide) => wide > 0 && wide <= FAR && { scale: wide / this.#wide });
     // Near the fingers that have measured or moved it.
-    this.size = make("p", { id: "photo-size", hidden: true }, text(phrase("On the ground these are")), this.metres, text(phrase("m apart.")));
+    this.size = make("p", { id: "photo-size", className: "bar", hidden: true }, text(phrase("On the ground these are")), this.metres, text(phrase("m apart.")));
     const done = button({ textContent: "✓", "data-label": "Leave the photo (Escape)" }, () => editor.leave());
-    this.moving = make("p", { id: "photo-moving", hidden: true }, "∠ ", this.angle, " ° · ↔ ", this.wide, " m ", done);
+    this.moving = make("p", { id: "photo-moving", className: "bar", hidden: true }, "∠ ", this.angle, " ° · ↔ ", this.wide, " m ", done);
     $("#stage").append(this.size, this.moving);
     this.hint = make("span", { className: "hint", "data-text": phrase("The photo has its scale from two points of which you know the distance.") });
     this.toggle = textButton("Hide it", () => this.#show(!this.#isHidden), { id: "photo-hide" });

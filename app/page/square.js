@@ -90,15 +90,20 @@ export function shapeOf(ring, shapes) {
 /** What a street has beyond the dragon, beside the margin, the stray and the overhang of a bench: a place to begin [m]. */
 const STREET_MORE = 0.7;
 
-/** Length of the street that the service adds beyond a gate, in whole metres; a stray counts once, where the service counts what it moves the benches by [m]. */
-export function streetLength(state) {
+/** Length of the dragon between its outermost handles [m], and its overhangs. */
+export function dragonOf(state) {
   const { csv, listed } = state.extras();
   const number = (name) => Number(state.get(name));
   const [count, overhang] = [number("benches"), number("overhang")];
   const lengths = csv ? listed.lengths : [number("head_length"), ...Array(Math.max(count - 1, 0)).fill(number("body_length"))];
   const overhangs = csv ? listed.overhangs : lengths.map(() => overhang);
-  const chords = lengths.reduce((sum, length, k) => sum + length - 2 * overhangs[k], 0);
-  const [stray, hole, pin, margin] = ["stray", "hole", "pin", "margin"].map(number);
+  return { overhangs, length: lengths.reduce((sum, length, k) => sum + length - 2 * overhangs[k], 0) };
+}
+
+/** Length of the street that the service adds beyond a gate, in whole metres; a stray counts once, where the service counts what it moves the benches by [m]. */
+export function streetLength(state) {
+  const { overhangs, length } = dragonOf(state);
+  const [stray, hole, pin, margin] = ["stray", "hole", "pin", "margin"].map((name) => Number(state.get(name)));
   const free = margin + strayOf({ stray, hole, pin });
-  return Math.ceil(chords + Math.max(overhangs[0], overhangs.at(-1)) + free + STREET_MORE);
+  return Math.ceil(length + Math.max(overhangs[0], overhangs.at(-1)) + free + STREET_MORE);
 }

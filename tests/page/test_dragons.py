@@ -46,6 +46,13 @@ OWN = {"things": "a.yard..-150,-90_150,-90_150,90_-150,90~c.well.1.0,80", "route
 def test_a_second_dragon_comes_in_behind_the_first_or_the_page_says_what_can_be_done(open_page):
     person = open_page("?door=village&lang=en&path=route&route=*-40,0_40,0&begin=16&benches=9").presses("#several")
     person.sees({"#judgement": "Can be danced", "#dragons-apart": False}).settles()
+    # A tap on its head chooses the other one.
+    path = file_of(person)["dances"][1]["path"]
+    person.opens(f"?{urlencode(person.address() | {'view': '0,0,10', 'time': '0'})}").sees({"#dragons li": 2})
+    canvas = person.box("#canvas")
+    x = canvas["x"] + 0.5 * canvas["width"] + 10 * (path["points"][0][0] + path["start"])
+    person.settles().page.mouse.click(x, canvas["y"] + 0.5 * canvas["height"])
+    person.has("#dragon-choose-1", aria_pressed="true").presses("#undo").has("#dragon-choose-0", aria_pressed="true")
     # A copy of the first one stands behind both.
     person.presses("#dragon-copy-0").sees({"#dragons li": 3, "#judgement": "Can be danced"}).settles()
     assert len({one["path"]["points"][0][0] for one in file_of(person)["dances"]}) == 3
@@ -248,5 +255,5 @@ def test_a_saved_file_opens_again_and_what_the_page_leaves_out_is_named(open_pag
     content["dances"][1]["path"] = {"kind": "spiral", "pitch": 1.1, "start_turns": 8, "clockwise": False}
     opened(content, "the page shows spirals around x = y = 0")
     dance = {"dragon": {"benches": 3}, "path": {"kind": "waypoints", "points": [[0, 0], [60, 0]]}}
-    for part in (dance, {"dances": [dance, {**dance, "delay": 60}]}):
-        opened({**part, "start": 20, "stop": 40}, "start、stop", "zh")
+    for part, left in ((dance, "：stop"), ({"dances": [dance, {**dance, "delay": 60}]}, "：start、stop")):
+        opened({**part, "start": 20, "stop": 40}, left, "zh")

@@ -22,9 +22,9 @@ VILLAGE = (
 )
 NOTHING = "?path=route"
 DANCES = {"spiral": "?benches=12&time=0", "turn": "?path=turn&benches=12&time=0", "route": VILLAGE, "nothing": NOTHING}
-# A point on the picture is hit in a circle around it, a tick or a file in all of its label.
+# A point or a handle on the picture is hit in a circle around it, a tick or a file in all of its label.
 NARROW = """(least) => [...document.querySelectorAll("button, select, input, textarea, summary, a")]
-  .filter((one) => one.checkVisibility() && !one.matches(".skip, .knot"))
+  .filter((one) => one.checkVisibility() && !one.matches(".skip, .knot, .grip"))
   .map((one) => [one, one.matches("[type=checkbox], [type=file]") ? one.closest("label") : one])
   .filter(([one, target]) => {
     const { width, height, right } = target.getBoundingClientRect();

@@ -29,7 +29,9 @@ ON_PATH = {"route", "corner", "walk", "begin", "start", *ON_EARTH}
 PROJECTS = {
     "drawn": (
         DRAWN | PLACE,
-        NUMBERS | PACE | {"limit": "1.7", "passages": "0.5@15m_0@5d", "start_clock": "19:30", "ends": "20"},
+        NUMBERS
+        | PACE
+        | {"start": "0", "limit": "1.7", "passages": "0.5@15m_0@5d", "start_clock": "19:30", "ends": "20"},
         "#save",
     ),
     "walked": (

@@ -13,7 +13,7 @@ from playwright.sync_api import expect
 from tests.conftest import ROOT
 from tests.support import paper, polite
 from tests.support.floor_plan import EDGES, WALLS, floor_plan, town
-from tests.support.person import COVERED, PHONE, alike
+from tests.support.person import COVERED, PHONE, TABLET, alike
 
 thorough = pytest.mark.thorough
 S_CURVE = "?path=route&route=*-80,-16_0,-16_16,-8_0,0_-16,8_*0,16_80,16"
@@ -217,7 +217,7 @@ def _a_photo_is_moved_turned_and_sized_by_fingers_keys_and_numbers(person):
         return person.settles().ask("history.state.photo")
 
     before = place()
-    box = person.presses("#photo-move").sees({".grip": 3, "#photo-moving": True}).box("#canvas")
+    box = person.presses("#photo-move").sees({".grip:visible": 3, "#photo-moving": True}).box("#canvas")
     assert person.findings() == []
     expect(person.at(".grip.move")).to_be_focused()
     x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]
@@ -312,6 +312,47 @@ def test_a_figure_is_moved_sized_turned_and_mirrored_as_a_whole_until_it_is_free
     assert bent.count(bent[1]) == 3
     person.strikes("Delete").sees({".knot:visible": 6})
     person.presses("#undo", "#undo", "#undo").sees({"#figure": True, ".knot": 0})
+
+
+def test_by_keys_alone_a_list_leads_on_and_things_are_drawn_chosen_moved_and_taken_back(open_page):
+    person = open_page("?door=village&path=route&benches=9").strikes("?")
+    person.sees({"#keys .main": "Next: The size of the square"})
+    assert person.findings() == []
+    person.strikes("Enter").page.keyboard.type("42")
+    # In a field for a number it is no character.
+    person.strikes("Enter", "?").sees({"#keys .main": "Next: Propose a dance"}).strikes("Escape")
+    expect(person.at("#place-width")).to_be_focused()
+    tree = person.focuses("[data-add=circle]").strikes("Enter", "n", "Shift+ArrowUp").settles().address()["things"]
+    x, y = (float(one.replace("!", ".")) for one in tree.partition("~c.tree.0!5.")[2].split(","))
+    assert round(100 * y) % 10 in (1, 9)
+    # The keys [ and ] choose things on the picture, which say where they are.
+    person.focuses("#canvas").strikes("]").sees({"#told": "square: x 0 m", "#beside": True})
+    person.strikes("[").sees({"#told": f"tree: x {x:g} m, y {y:g} m"})
+    person.strikes("ArrowLeft").sees({"#told": f"tree: x {x - 0.1:.2g} m"})
+    person.strikes("ControlOrMeta+d", "Delete", "ControlOrMeta+z", "ControlOrMeta+z", "ControlOrMeta+z")
+    assert person.settles().address()["things"] == tree
+    person.speaks("zh").strikes("?").sees({"#keys": ["下一步：设计一场舞龙", "按住 Shift 为 1 cm"]})
+
+
+def test_a_dragon_is_dragged_along_its_path_and_starts_there(open_page):
+    person = open_page(f"{S_CURVE}&benches=9&begin=30", **TABLET).sees(YES).presses("#edit").settles()
+    before = person.address()
+    box = person.box(".grip.start")
+    person.swipes(box["x"] + 11, box["y"] + 11, 60, 20)
+    person.sees({**YES, "#start-place": True}).settles()
+    begins = float(person.address()["begin"])
+    assert 40 < begins < 60
+    assert person.findings() == []
+    # The dance starts there, at time 0, and its numbers go on from there by keys and as typed.
+    assert (person.address()["start"], person.address()["time"]) == ("0", "0")
+    person.sees({"#judgement": f"on the first {begins:.1f} m"}).strikes("ArrowRight", "Shift+ArrowRight")
+    assert float(person.settles().address()["begin"]) == pytest.approx(begins + 1.1)
+    person.types({"#start-place": "62,5"}).sees({"#judgement": "on the first 62.5 m"})
+    # Where the dragon is not yet whole on its path, the dance starts as soon as it is.
+    person.types({"#start-place": "7"}).sees({"#judgement": "on the first 16.1 m"})
+    for _ in range(4):
+        person.presses("#undo")
+    assert {**person.settles().address(), "time": "0"} == {**before, "time": "0"}
 
 
 def middle(person, selector):

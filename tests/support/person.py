@@ -11,6 +11,7 @@ from playwright.sync_api import expect
 from tests.support import axe
 from tests.support.pending import REACH, settled
 
+TABLET = {"viewport": {"width": 820, "height": 1180}, "has_touch": True}
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 # A layout that changes the height of the picture lets it be drawn once more.
 IS_SIZED = """() => {

@@ -72,7 +72,7 @@ test("the service gets a drawing as waypoints in a venue", () => {
   assert.equal(drawing.keptVenueOf(EMPTY), null);
   assert.deepEqual(drawing.placeOf(EMPTY), {});
   assert.deepEqual(drawing.placeOf({ ...EMPTY, path: { kind: "turn" }, start: 0 }), { start: 0 });
-  assert.deepEqual(drawing.placeOf({ ...EMPTY, start: 3 }), {});
+  assert.deepEqual(drawing.placeOf({ ...EMPTY, start: 3 }), { start: 3 });
   const least = { area: 3, block: 3, circle: 1, wall: 2, gate: 1, lane: 2 };
   for (const [kind, count] of Object.entries(least)) for (const more of [-1, 0]) assert.equal(drawing.isWhole({ kind, points: YARD.slice(0, count + more) }), more === 0, kind);
 });
