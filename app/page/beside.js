@@ -70,7 +70,7 @@ export class Beside {
     // While it is drawn and dragged, the samples of the dance say how near benches come.
     const gap = this.gaps()?.find(({ name }) => name === thing.name);
     hide(this.gap, !gap);
-    if (gap) this.gap.textContent = say(gap.enough ? "{distance} m from the benches; {enough} m are enough" : "{distance} m from the benches", { distance: gap.distance.toFixed(2), enough: gap.enough.toFixed(2) });
+    if (gap) this.gap.textContent = say(gap.enough ? "{distance} m from benches in place; {enough} m are enough" : "{distance} m from the benches", { distance: gap.distance.toFixed(2), enough: gap.enough.toFixed(2) });
     this.gap.classList.toggle("error", Boolean(gap) && gap.distance < gap.enough);
     const { lengths } = measures(thing.points, !isLine(thing));
     this.size.textContent = thing.points.length > 1 ? lengths.filter((one) => one !== null).map((one) => `${Number(one.toFixed(2))} m`).join(" · ") : "";

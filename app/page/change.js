@@ -13,20 +13,20 @@ function factsOf({ venue, least_clearance: least, highest_speed: speed }) {
   return new Map([...gaps, ...(least ? [["benches", least.distance]] : []), ...(speed ? [["speed", speed.speed]] : [])]);
 }
 
-/** A fact and what it was, in words. */
-function wordsOf(key, now, was) {
+/** A fact and what it was, in words. isStrayed: distances are those of people who stray */
+function wordsOf(key, now, was, isStrayed) {
   const numbers = { now: now.toFixed(2), was: was.toFixed(2) };
   if (key === "speed") return say("highest speed {now} m/s (was {was})", numbers);
-  if (key === "benches") return say("benches {now} m apart (was {was})", numbers);
-  return say("{name}: {now} m free (was {was})", { name: key, ...numbers });
+  if (key === "benches") return say(isStrayed ? "benches {now} m apart while people stray (was {was})" : "benches {now} m apart (was {was})", numbers);
+  return say(isStrayed ? "{name}: {now} m free while people stray (was {was})" : "{name}: {now} m free (was {was})", { name: key, ...numbers });
 }
 
 /** The largest differences between two certified answers, in words; none without any. */
-export function differences(before, now) {
+export function differences(before, now, isStrayed = false) {
   const [old, own] = [before, now].map(factsOf);
   const changed = [...own].filter(([key, value]) => old.has(key) && Math.abs(value - old.get(key)) >= LEAST);
   changed.sort(([a, x], [b, y]) => Math.abs(y - old.get(b)) - Math.abs(x - old.get(a)));
-  return changed.slice(0, MOST).map(([key, value]) => wordsOf(key, value, old.get(key)));
+  return changed.slice(0, MOST).map(([key, value]) => wordsOf(key, value, old.get(key), isStrayed));
 }
 
 /** True if a drawing has the path of another one, or all its things and some of its points or the pieces of its figure, as after a change by hand. */
@@ -64,14 +64,14 @@ export class Change {
     if (base !== this.#base) [this.#base, this.#before] = [base, this.#newest];
   }
 
-  /** Once the hand rests: what differs from before, unless a file, an example or a proposal has taken its place. report: the certified answer; base: the drawing before the drag, or null without one */
-  certified(report, base, drawing) {
+  /** Once the hand rests: what differs from before, unless a file, an example or a proposal has taken its place. report: the certified answer; base: the drawing before the drag, or null without one; isStrayed: whether people stray in it */
+  certified(report, base, drawing, isStrayed) {
     if (base) this.#begin(base);
     else this.#before = this.#newest;
     this.#newest = { report, drawing };
     const before = this.#before;
     if (!before || !isEdited(before.drawing, drawing)) return this.clear();
-    this.#say(report.verdict, report.verdict === "passes" ? differences(before.report, report) : report.failures.slice(0, 1).map(({ sentence }) => sentence));
+    this.#say(report.verdict, report.verdict === "passes" ? differences(before.report, report, isStrayed) : report.failures.slice(0, 1).map(({ sentence }) => sentence));
   }
 
   /** There is no dance any more with which the next one could be compared. */

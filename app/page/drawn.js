@@ -6,6 +6,7 @@ import { placesOf } from "./changes.js";
 import { EMPTY, walkOf, yardOf } from "./drawing.js";
 import { Editor } from "./edit.js";
 import { $, $$, hide, make, textButton } from "./elements.js";
+import { strayOf } from "./fields.js";
 import { Figure } from "./figure.js";
 import { Files } from "./files.js";
 import { stepsOf } from "./history.js";
@@ -209,7 +210,7 @@ export class Drawn {
 
   /** Say what the last change has done. answer: certified; of: the dance */
   certified(answer, of) {
-    if (of?.kind === "route" && of === this.questions.dance) this.change.certified(answer, this.editor.base, of.drawing);
+    if (of?.kind === "route" && of === this.questions.dance) this.change.certified(answer, this.editor.base, of.drawing, strayOf(of.numbers) > 0);
   }
 
   /** Show that the service refused the dance, with a better reason if one is known. */

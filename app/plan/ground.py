@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.files.looks import ink_on, square_alone, with_square
 from app.files.typeset import POINT, Face
@@ -16,7 +17,7 @@ from app.plan.drawing import HATCHED, MapDrawing, Scale, look, scale_of, svg_of
 from app.plan.paper import Box, PaperName, TextRoom
 from app.plan.timing import Timing
 from core import Budget, Dance, Venue
-from core.language import say
+from core.language import phrase, say
 from core.plots import BLUE, VERMILION
 from core.shapes.engines import Polygons, merged, widest_place
 from core.values import Floats
@@ -38,6 +39,11 @@ IN_CUT = look(edge="white", width=1.3, dash=BROKEN) + ' clip-path="url(#edge)"'
 SEEN = 0.12
 # Half the length of a mark, distance of its number from the path, and spacing of the arrows along the path [mm].
 TICK, BESIDE, ARROWS = 1.1, 2.6, 45.0
+# Share of that spacing within which laps on one another have one arrow [1].
+ALONE = 0.25
+# Spacing of points on the path before a mark [m], largest distance of a lap from one under it [m], and least cosine of
+# the angle between both.
+LAP_STEP, ON_LAP, PARALLEL = 0.5, 0.05, 0.99
 # Smallest readable type on a bench [pt].
 SMALLEST = 3.4
 # Distance of the name of a dragon from its path [mm], and shares of the path, in order, at which the name may stand.
@@ -74,6 +80,20 @@ class GroundMap:
     colour: str = BLUE
 
     @cached_property
+    def first_time(self) -> NDArray[np.bool_]:
+        """Which marks (M,) lie where the path has not been before: of laps on one another those of the first."""
+        path, marks = self.dance.path, self.timing.marks
+        s = np.arange(marks.s[0], marks.s[-1], LAP_STEP)
+        points, tangents, own = path.position(s), path.tangent(s), path.tangent(marks.s)
+        first = np.ones(len(marks.s), dtype=bool)
+        for k, (place, point) in enumerate(zip(marks.s, marks.points, strict=True)):
+            past = slice(0, int(np.searchsorted(s, place - marks.spacing)))
+            (dx, dy), (x, y) = (point - points[past]).T, tangents[past].T
+            on_lap = (np.hypot(dx, dy) < LAP_STEP) & (np.abs(x * dy - y * dx) < ON_LAP)
+            first[k] = not (on_lap & (np.abs(tangents[past] @ own[k]) > PARALLEL)).any()
+        return first
+
+    @cached_property
     def line(self) -> Floats:
         """Points of the path (N, 2) [m]."""
         path, marks = self.dance.path, self.timing.marks
@@ -81,8 +101,8 @@ class GroundMap:
 
 
 def scale_for(grounds: Sequence[GroundMap], name: PaperName, benches: Floats | None = None) -> Scale:
-    """The scale at which the ground of one dragon or of several fits on the paper, with the streets of the square cut
-    unless a bench is in one.
+    """The scale at which the ground of one dragon or of several fits on the paper, with each street of the square cut
+    beyond the benches in it.
 
     benches: their corners (..., 2) [m]
     raises: InvalidValue
@@ -97,8 +117,9 @@ def scale_for(grounds: Sequence[GroundMap], name: PaperName, benches: Floats | N
             np.where(ring.min(axis=0) < inner[0], np.maximum(least, inner[0]), least),
             np.where(ring.max(axis=0) > inner[1], np.minimum(most, inner[1]), most),
         )
-        if benches is None or ((cut[0] <= benches) & (benches <= cut[1])).all():
-            least, most = cut
+        places = np.reshape(cut if benches is None else benches, (-1, 2))
+        least = np.maximum(least, np.minimum(cut[0], places.min(axis=0)))
+        most = np.minimum(most, np.maximum(cut[1], places.max(axis=0)))
     return scale_of(name, least, most)
 
 
@@ -245,20 +266,25 @@ def _inside(ring: Floats, middle: Floats, beside: float) -> list[tuple[float, fl
 
 def draw_arrows(drawing: MapDrawing, line: Floats, colour: str = BLUE, apart: float = ARROWS) -> None:
     """Draw arrows along a path, in the direction of the dance. apart: their distance [mm]"""
-    steps = np.hypot(*np.diff(line, axis=0).T)
+    steps, middles = np.hypot(*np.diff(line, axis=0).T), np.full((1, 2), np.inf)
     along = np.concatenate([[0.0], np.cumsum(steps)])
     for place in np.arange(0.5 * apart, along[-1], apart):
         k = int(np.searchsorted(along, place))
+        if np.hypot(*(middles - line[k]).T).min() < ALONE * apart:
+            continue
+        middles = np.vstack([middles, line[k]])
         tangent = (line[k] - line[k - 1]) / max(steps[k - 1], 1e-9)
         side, back = 0.9 * np.array([-tangent[1], tangent[0]]), line[k] - 1.0 * tangent
         drawing.shape([np.array([line[k] + 1.6 * tangent, back + side, back - side])], look(colour), 6)
 
 
 def _draw_marks(drawing: MapDrawing, ground: GroundMap, line: Floats) -> None:
-    """Draw marks with their numbers beside the path, or on it where another part of the path is beside it."""
+    """Draw marks with their numbers beside the path, or on it where another part of the path is beside it; of laps that
+    lie on one another those of the first."""
     marks, path, scale = ground.timing.marks, ground.dance.path, drawing.scale
-    names = marks.names
-    points, tangents = scale.on_paper(marks.points), path.tangent(marks.s)
+    first = ground.first_time
+    names = [name for name, is_first in zip(marks.names, first, strict=True) if is_first]
+    points, tangents = scale.on_paper(marks.points[first]), path.tangent(marks.s[first])
     normals = np.stack([-tangents[:, 1], tangents[:, 0]], axis=-1)
     ticks = np.stack([points - TICK * normals, points + TICK * normals])
     for tick in ticks.swapaxes(0, 1):
@@ -411,7 +437,9 @@ def legend_of(drawing: MapDrawing, ground: GroundMap, benches: bool, several: bo
     elif benches:
         rows += [(AREA, IN_BENCH, say("bench")), (AREA, IN_HEAD, say("head"))]
     elif not several:
-        rows.append((MARK, on_path, say("chalk mark every {spacing:g} m", spacing=ground.timing.marks.spacing)))
+        once = phrase("chalk mark every {spacing:g} m; of equal laps only the first has them")
+        words = phrase("chalk mark every {spacing:g} m") if ground.first_time.all() else once
+        rows.append((MARK, on_path, say(words, spacing=ground.timing.marks.spacing)))
     return _swatches([*rows, *_of_venue(drawing, ground)])
 
 

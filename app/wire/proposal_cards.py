@@ -20,8 +20,11 @@ FIGURES: Phrases = {
     core.Figure.RING: "Ring",
     core.Figure.PARADE: "From gate to gate",
 }
-# Angle between two benches that is worth a word [rad]; stray that is little room for people, and a near distance [m].
-BEND, LITTLE, NEAR = math.radians(40.0), 0.1, 0.3
+# Angle between two benches that is worth a word, and one that is sharp [rad]; stray that is little room for people, and
+# a near distance [m].
+BEND, SHARP, LITTLE, NEAR = math.radians(40.0), math.radians(60.0), 0.1, 0.3
+# Benches with one bench between them are always near each other: their numbers differ by this [1].
+NEXT_BUT_ONE = 2
 # Two values that differ by less are equal.
 EQUAL = 1e-3
 # From this time on minutes are counted [s]. Points at which a way is looked at [1].
@@ -67,13 +70,15 @@ class ProposalCards:
         if seconds >= LONG:
             time = say("{minutes} min {seconds} s", minutes=seconds // 60, seconds=seconds % 60)
         size = phrase("{benches} benches, {time}; the head walks {length} m")
-        comma, tight = say(", "), self._tight(one)
+        comma = say(", ")
         return ProposalCard(
             title=self._title(k),
             size=say(size, benches=benches, time=time, length=f"{one.length:.0f}"),
             good=comma.join(self._good(one)),
-            tight=comma.join(tight),
-            is_tight=len(tight) > 1 or min(one.clearance or math.inf, one.near.distance) < NEAR,
+            tight=comma.join(self._tight(one)),
+            is_tight=one.tolerance < LITTLE
+            or (one.sharpest_bend or 0.0) > SHARP
+            or min(_apart(one), one.near.distance) < NEAR,
         )
 
     def _title(self, k: int) -> str:
@@ -139,9 +144,9 @@ class ProposalCards:
             near.in_place,
             near.distance,
         )
-        if one.clearance is not None and one.clearance_in_place is not None and one.clearance < near.distance:
+        if one.clearance_in_place is not None and _apart(one) < near.distance:
             template = phrase("benches that are not neighbours come as near as {distance} m to each other")
-            distance, strayed = one.clearance_in_place, one.clearance
+            distance, strayed = one.clearance_in_place, _apart(one)
         elif near.name == self.square.name:
             template = phrase("nobody comes nearer than {distance} m to the border of the square")
         words = [say(template, distance=f"{distance:.2f}", name=near.name)]
@@ -153,6 +158,13 @@ class ProposalCards:
         if one.tolerance < LITTLE:
             words.append(say("people may be only {stray} cm from their places", stray=_centimetres(one)))
         return words
+
+
+def _apart(one: core.Proposal) -> float:
+    """The least distance of two benches if they have more than one bench between them, infinite if not [m]."""
+    least = one.report.least_clearance
+    a, b = (0, 0) if least is None else least.benches
+    return math.inf if least is None or b - a <= NEXT_BUT_ONE else least.distance
 
 
 def _centimetres(one: core.Proposal) -> str:

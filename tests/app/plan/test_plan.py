@@ -140,10 +140,21 @@ def test_a_street_that_the_sheet_cuts_is_broken_at_its_edge():
     assert column[top + 7 * dots : top + 12 * dots].all()
 
 
-def test_the_square_fills_a_sheet_unless_a_bench_is_in_its_street():
+def test_the_square_fills_a_sheet_whose_streets_go_as_far_as_their_benches():
     way = {"kind": "route", "pieces": [{"kind": "line", "start": [18.5, 100], "end": [18.5, -10]}]}
     sheets = [words_of(one) for one in plan_of(BODY, venue=WITH_STREET, path=way, stop=109.0)[:4]]
-    assert [re.search(r"1:\d+(?= 0 )", one)[0] for one in sheets] == ["1:200", "1:500", "1:500", "1:200"]
+    assert [re.search(r"1:\d+(?= 0 )", one)[0] for one in sheets] == ["1:200", "1:500", "1:300", "1:200"]
+
+
+def test_laps_on_one_another_are_marked_once():
+    arc = {"kind": "arc", "centre": [9, 9], "radius": 5.0, "start_angle": 0.0}
+    turns, words = (1, 3), []
+    for turn in turns:
+        path = {"kind": "route", "pieces": [arc | {"sweep": 2.0 * np.pi * turn}]}
+        words.append(words_of(plan_of(BODY, path=path, start=12.0, stop=31.0 * turn)[0]))
+    numbers = [set(re.findall(r"(?<= )(?:5|10|15|20|25|30|35|60|90)(?= )", one)) for one in words]
+    assert numbers[1] == numbers[0] == {"5", "10", "15", "20", "25"}
+    assert ["of equal laps" in one for one in words] == [False, True]
 
 
 SPIRAL = {"kind": "spiral", "pitch": 0.4, "start_turns": 6, "centre": [9, 9]}
