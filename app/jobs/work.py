@@ -26,7 +26,7 @@ from app.jobs.reports import Reports
 from app.jobs.store import Store
 from app.jobs.task import Task
 from app.logs import log_to_stderr
-from app.processes.limits import limit_memory, lower_priority
+from app.processes.limits import OOM_SCORE_JOB, end_first, limit_memory, lower_priority
 from app.processes.parent import Report, answer_tasks
 from app.settings import Settings
 from app.wire.problem import Problem, problem_of
@@ -82,6 +82,7 @@ def do(store: Store, job: str, settings: Settings, reports: Reports) -> dict[str
 
 def main() -> None:
     lower_priority()
+    end_first(OOM_SCORE_JOB)
     settings, folder = Settings(), Path(sys.argv[1])
     log_to_stderr(settings.log_json)
     limit_memory(settings.job_memory_max)

@@ -17,8 +17,10 @@ from core.quantities import Quantity
 # Memory in which any file within the other limits can be read [bytes]; address space, so that it also holds for what is
 # reserved. A new process takes 240 MB of it (measured 2026-11-26).
 READING_MAX = 1_000_000_000
-# Linux ends the process with the largest value first when memory runs out; 1,000 is the largest.
-OOM_SCORE, OOM_SCORE_MAX = Path("/proc/self/oom_score_adj"), 1_000
+# Linux ends the process with the largest sum of this value and the thousandths of the memory that it has first when
+# memory runs out; 1,000 is the largest. In a cgroup of 0.6 GB it ended the processes of the service, each larger than
+# that of a job beside it (2026-11-30). A job begins again, and nobody waits for its answer on an open connection.
+OOM_SCORE, OOM_SCORE_MAX, OOM_SCORE_JOB = Path("/proc/self/oom_score_adj"), 1_000, 500
 STATUS, PEAK = Path("/proc/self/status"), re.compile(rb"VmHWM:\s*(\d+) kB")
 # Largest peak of the resident memory of a process that takes another task [bytes]; a new one needs 60 to 110 MB.
 SMALL = 256_000_000
@@ -72,10 +74,10 @@ def is_small() -> bool:
     return 0 < peak_memory() < SMALL
 
 
-def end_first() -> None:
-    """Let the system end this process before all others when memory runs out."""
+def end_first(score: int = OOM_SCORE_MAX) -> None:
+    """Let the system end this process before those with a smaller score when memory runs out."""
     with contextlib.suppress(OSError):  # another system than Linux, or a sandbox
-        OOM_SCORE.write_text(str(OOM_SCORE_MAX))
+        OOM_SCORE.write_text(str(score))
 
 
 def too_much_memory(most: int = READING_MAX) -> TooMuchWork:

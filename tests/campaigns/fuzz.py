@@ -47,7 +47,11 @@ class Tally:
     def add(self, ask, request):
         """An answer, counted. raises: AssertionError for a fault of the service, or one without problem details"""
         begun = time.monotonic()
-        answer = ask()
+        try:
+            answer = ask()
+        except httpx.HTTPError as error:
+            error.add_note(request)
+            raise
         seconds = time.monotonic() - begun
         status = answer.status_code
         text = answer.content.decode(errors="replace")

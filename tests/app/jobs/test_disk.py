@@ -21,7 +21,7 @@ pytestmark = [pytest.mark.root, pytest.mark.thorough]
 
 @pytest.fixture
 def small_disk(tmp_path):
-    """A disk of one megabyte, which only root may mount."""
+    """A disk of four megabytes, which only root may mount."""
     folder = tmp_path / "disk"
     folder.mkdir()
     subprocess.run(["mount", "-t", "tmpfs", "-o", "size=4000000", "tmpfs", folder], check=True)

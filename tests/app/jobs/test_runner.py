@@ -6,6 +6,7 @@ import sqlite3
 import subprocess
 import sys
 from contextlib import closing
+from pathlib import Path
 
 import pytest
 
@@ -42,6 +43,12 @@ def kill(service, role):
     wait_for(lambda: not killed & {process.pid for process in service.processes()})
 
 
+def out_of_memory_score(service, role):
+    """What Linux adds to the memory of a process when it looks for one to end."""
+    (process,) = service.of(role)
+    return int(Path(f"/proc/{process.pid}/oom_score_adj").read_text())
+
+
 def assert_same(service, address, wanted):
     """The job ends with the bytes of the direct call."""
     assert service.finished(address)["status"] == "successful"
@@ -57,6 +64,8 @@ def test_a_process_does_one_job_after_another_and_a_job_begins_again_when_its_pr
             spare += [process.pid for process in service.of("spare")]
         assert len(spare) == 2 == 1 + len(set(spare))
         unfinished = begun(service, ENDLESS)
+        # Without memory the system ends the process of a job before those that answer everyone.
+        assert out_of_memory_score(service, "parent") < out_of_memory_score(service, "child")
         kill(service, "child")
         wait_for(lambda: service.of("child"))
         assert service.until(unfinished, "running")["message"] == "Running."
