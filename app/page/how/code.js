@@ -41,9 +41,9 @@ looks = clearance_profile(dance, np.arange(405.5, 411.51, ${step}))
 print("looks see a gap of", 1000 * looks.clearance.min(), "mm at least")
 proof = first_contact(dance, start=405.5, stop=411.5)
 print(proof.outcome, proof.certificate.steps, proof.certificate.least_clearance)`,
-  turn: ({ ratio, entry }) => `from core import InvalidValue, Dance, Dragon, Turn
+  turn: ({ ratio, entry, exit }) => `from core import InvalidValue, Dance, Dragon, Turn
 
-turn = Turn(1.7, 4.5, ${ratio}, entry_radius=${entry}, exit_radius=${entry})
+turn = Turn(1.7, 4.5, ${ratio}, entry_radius=${entry}, exit_radius=${exit})
 print(turn.length, turn.angles, sum(turn.radii), turn.radii)
 try:
     Dance(Dragon(), turn)

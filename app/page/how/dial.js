@@ -12,7 +12,7 @@ export class Dial {
   element = make("span", { className: "dial", role: "slider", tabindex: 0 });
   #drag = null;
 
-  /** plan: {value, min, max, step, decimals, unit(value) -> text after the number}; changed() after each change */
+  /** plan: {value, min, max, step, decimals, unit(value) -> text after the number, exact: an address and a button may set what is between two steps}; changed() after each change */
   constructor(plan, changed) {
     this.plan = plan;
     this.changed = changed;
@@ -24,6 +24,11 @@ export class Dial {
 
   /** Set the number to the nearest step of the slider. */
   set(value) {
+    this.choose(this.#near(value));
+  }
+
+  /** Set the number to one that the page offers. */
+  choose(value) {
     const before = this.value;
     this.take(value);
     if (this.value === before) return;
@@ -33,9 +38,13 @@ export class Dial {
 
   /** Take over a number before the page is drawn. */
   take(value) {
-    const { min, max, step, decimals } = this.plan;
-    const near = Number((min + Math.round((value - min) / step) * step).toFixed(decimals));
-    this.value = Math.min(Math.max(near, min), max);
+    const { min, max, exact } = this.plan;
+    this.value = Math.min(Math.max(exact ? value : this.#near(value), min), max);
+  }
+
+  #near(value) {
+    const { min, step, decimals } = this.plan;
+    return Number((min + Math.round((value - min) / step) * step).toFixed(decimals));
   }
 
   /** The number with its unit. */

@@ -24,7 +24,7 @@ export class Figure {
   /**
    * section: with its texts; plan: {dials, ask(ask, values) -> data, draw(svg, {width, height}, data) -> sheet, outputs(data)}, perhaps
    * refine(ask), refused(error, values) -> data that shows what a refusal means or null, and, where the drawing is dragged,
-   * pull(place, data) -> {name of a dial: value}; changed(): called when a number changes
+   * pull(place, data, begins) -> {name of a dial: value}; changed(): called when a number changes
    * @param {Service} service
    */
   constructor(section, plan, service, changed = () => {}) {
@@ -75,7 +75,7 @@ export class Figure {
       return this.#outputs.get(name);
     }
     if (value === undefined) return dial.element;
-    return button({ className: "try", textContent: dial.words(Number(value)) }, () => dial.set(Number(value)));
+    return button({ className: "try", textContent: dial.words(Number(value)) }, () => dial.choose(Number(value)));
   }
 
   /** Ask the service about the present numbers. */
@@ -144,16 +144,16 @@ export class Figure {
     if (!plan.pull) return;
     svg.classList.add(plan.knob ? "knobs" : "pulls");
     let held = false;
-    const go = (event) => {
+    const go = (event, begins = false) => {
       const { left, top } = svg.getBoundingClientRect();
       const place = this.sheet.from(event.clientX - left, event.clientY - top);
-      for (const [name, value] of Object.entries(plan.pull(place, this.data))) this.dials[name].set(value);
+      for (const [name, value] of Object.entries(plan.pull(place, this.data, begins))) this.dials[name].set(value);
     };
     svg.addEventListener("pointerdown", (event) => {
       if (!this.sheet || event.button || (plan.knob && !(event.target instanceof Element && event.target.classList.contains("knob")))) return;
       svg.setPointerCapture(event.pointerId);
       held = true;
-      go(event);
+      go(event, true);
       event.preventDefault();
     });
     svg.addEventListener("pointermove", (event) => held && go(event));

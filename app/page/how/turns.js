@@ -74,8 +74,7 @@ function arcsOf(data) {
   });
 }
 
-/** The path of a turn that leaves opposite to where it enters. */
-const pathOf = ({ ratio, entry }) => ({ kind: "turn", pitch: PITCH, turning_diameter: 2 * CIRCLE, ratio, entry_radius: entry, exit_radius: entry });
+const pathOf = ({ ratio, entry, exit }) => ({ kind: "turn", pitch: PITCH, turning_diameter: 2 * CIRCLE, ratio, entry_radius: entry, exit_radius: exit });
 
 /** The points of an arc about a centre, from one of its points on by an angle [rad]. */
 function arcFrom([cx, cy], radius, [x, y], angle) {
@@ -84,11 +83,11 @@ function arcFrom([cx, cy], radius, [x, y], angle) {
 }
 
 /** Draw the circle, the coils and the two arcs of an answer of /turn. */
-function drawTurn(picture, { centres, radii, angles, entry, tangent_point: joint, entry_radius: inner }) {
+function drawTurn(picture, { centres, radii, angles, entry, tangent_point: joint, entry_radius, exit_radius }) {
   picture.circle(0, 0, CIRCLE, "turning");
-  const coil = Array.from({ length: 200 }, (_, k) => onSpiral(PITCH, inner / PITCH + (COIL_TURNS * k) / 199));
-  picture.line(coil, "spiral");
-  picture.line(coil.map(([x, y]) => [-x, -y]), "spiral");
+  const coil = (inner) => Array.from({ length: 200 }, (_, k) => onSpiral(PITCH, inner / PITCH + (COIL_TURNS * k) / 199));
+  picture.line(coil(entry_radius), "spiral");
+  picture.line(coil(exit_radius).map(([x, y]) => [-x, -y]), "spiral");
   picture.line(arcFrom(centres[0], radii[0], entry, -angles[0]), "arc one");
   picture.line(arcFrom(centres[1], radii[1], joint, angles[1]), "arc two");
 }
@@ -96,9 +95,11 @@ function drawTurn(picture, { centres, radii, angles, entry, tangent_point: joint
 export const turn = {
   dials: {
     ratio: { label: phrase("Radius of the first arc over that of the second"), value: 2, min: 0.5, max: 3, step: 0.01, decimals: 2, unit: "" },
-    entry: { label: phrase("Distance of the entry from the centre"), value: 4.5, min: 2.8, max: 4.5, step: 0.01, decimals: 2, unit: "m" },
+    entry: { label: phrase("Distance of the entry from the centre"), value: 4.5, min: 2.8, max: 4.5, step: 0.01, decimals: 2, unit: "m", exact: true },
+    exit: { label: phrase("Distance of the exit from the centre"), value: 4.5, min: 2.8, max: 4.5, step: 0.01, decimals: 2, unit: "m", exact: true },
   },
   knob: true,
+  held: "entry",
   async ask(ask, values) {
     const { kind, ...query } = pathOf(values);
     const shape = await ask("turn", { query });
@@ -117,17 +118,24 @@ export const turn = {
     drawTurn(picture, shape);
     for (const centre of shape.centres) picture.dot(...centre, "hole", 3);
     picture.dot(...shape.tangent_point, "hole", 4);
-    picture.dot(...shape.exit, "hole", 4);
+    picture.dot(...shape.exit, "knob", 8);
     picture.dot(...shape.entry, "knob", 8);
+    picture.text(say("entry"), ...shape.entry, "label", [12, 14]);
+    picture.text(say("exit"), ...shape.exit, "label", [12, -10]);
     picture.bar(1);
     return picture;
   },
-  pull: ([x, y]) => ({ entry: Math.hypot(x, y) }),
+  /** The knob that was taken moves its end, also where the hand leaves the coil. */
+  pull([x, y], { shape: { entry, exit } }, begins) {
+    const [before, behind] = [entry, exit].map(([left, up]) => Math.hypot(x - left, y - up));
+    if (begins) this.held = before < behind ? "entry" : "exit";
+    return { [this.held]: Math.hypot(x, y) };
+  },
   outputs({ shape: { length, angles, radii }, jam }) {
     const radius = `${Math.min(...radii).toFixed(3)} m`;
     return {
       length: `${length.toFixed(6)} m`,
-      angle: `${angles[0].toFixed(6)} rad`,
+      angle: `${[...new Set(angles.map((angle) => angle.toFixed(6)))].join(" / ")} rad`,
       sum: `${(radii[0] + radii[1]).toFixed(6)} m`,
       least: `${(CHORD / 2).toFixed(2)} m`,
       verdict: jam ? say("The benches jam: the tighter bend has a radius of {radius}, and the head cannot follow it.", { radius }) : say("The benches go through: the tighter bend has a radius of {radius}.", { radius }),
@@ -138,7 +146,7 @@ export const turn = {
 /** The way of the head whose speeds are drawn [m], and its number of samples. */
 const [WAY, SAMPLES] = [[-2, 32], 681];
 const LIMIT = 2;
-const PLAIN = { ratio: 2, entry: CIRCLE };
+const PLAIN = { ratio: 2, entry: CIRCLE, exit: CIRCLE };
 
 export const speed = {
   dials: {
