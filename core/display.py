@@ -22,6 +22,8 @@ TEXT_MOST, REPR_MOST = 60, 160
 ENTRIES_MOST = 6
 # Width of the picture below a table [pixels], and most benches in it.
 PICTURE_WIDTH, PICTURE_MOST = 320, 1_000
+# Most points of a path in it.
+WAY_MOST = 800
 TOUCHING = "#D55E00"  # colour of benches that touch
 # Rows of a table that are no fields, or those of a path.
 ROWS: Phrases = {
@@ -52,7 +54,7 @@ class Readable:
             f'<tr><th scope="row">{escape(say(name))}</th><td>{escape(text)}</td></tr>' for name, text in self._rows()
         )
         table = f"<table><caption>{escape(type(self).__name__)}</caption>{''.join(rows)}</table>"
-        return table + _drawn(*self._benches(), escape(self._line()))
+        return table + _drawn(*self._benches(), self._drawn_way(), escape(self._line()))
 
     def _line(self) -> str:
         """The short fields, each with its unit; a bracket only if its two ends differ in these digits."""
@@ -67,6 +69,10 @@ class Readable:
     def _benches(self) -> tuple[np.ndarray[Any, Any] | None, Sequence[int]]:
         """Corners (n, 4, 2) [m] of the benches that a small picture below the table shows, and those that it fills."""
         return None, ()
+
+    def _drawn_way(self) -> np.ndarray[Any, Any] | None:
+        """Points (n, 2) [m] of the path that the picture shows."""
+        return None
 
     def _values(self) -> list[tuple[str, object, str]]:
         """Name, value and unit of every field that has a value."""
@@ -148,14 +154,22 @@ def format_range(values: Sequence[float] | np.ndarray, unit: str = "", digits: i
     return f"{text} {unit}".rstrip()
 
 
-def _drawn(outlines: np.ndarray[Any, Any] | None, filled: Sequence[int], label: str) -> str:
-    """A drawing of benches seen from above as SVG, or nothing. outlines: (n, 4, 2) [m]; label: in words, escaped"""
-    if outlines is None or not 0 < len(outlines) <= PICTURE_MOST:
+def _drawn(
+    outlines: np.ndarray[Any, Any] | None, filled: Sequence[int], way: np.ndarray[Any, Any] | None, label: str
+) -> str:
+    """A drawing of benches or a path seen from above as SVG, or nothing.
+
+    outlines: (n, 4, 2) [m]; way: points (n, 2) [m]; label: in words, escaped
+    """
+    if outlines is not None and 0 < len(outlines) <= PICTURE_MOST:
+        lines, end = outlines * (1.0, -1.0), "z"
+    elif way is not None:
+        lines, end = (way[:: 1 + len(way) // WAY_MOST] * (1.0, -1.0))[None], ""
+    else:
         return ""
-    corners = outlines * (1.0, -1.0)
-    low = corners.min(axis=(0, 1)) - 0.5
-    width, height = corners.max(axis=(0, 1)) + 0.5 - low
-    shapes = ["M" + " ".join(f"{x:.2f},{y:.2f}" for x, y in corner) + "z" for corner in corners]
+    low = lines.min(axis=(0, 1)) - 0.5
+    width, height = lines.max(axis=(0, 1)) + 0.5 - low
+    shapes = ["M" + " ".join(f"{x:.2f},{y:.2f}" for x, y in line) + end for line in lines]
     benches = f'<path d="{"".join(shapes)}" fill="none" stroke="currentColor" stroke-width="0.05"/>'
     benches += f'<path d="{"".join(shapes[bench] for bench in filled)}" fill="{TOUCHING}"/>' if filled else ""
     return (

@@ -11,7 +11,7 @@ import numpy as np
 
 from core import kernels
 from core.checks import checked_list, checked_number
-from core.display import REPR_MOST, TABLE_DIGITS, Readable, display
+from core.display import REPR_MOST, TABLE_DIGITS, WAY_MOST, Readable, display
 from core.error_free import paired
 from core.errors import InvalidValue
 from core.kernels import Budget, Halted
@@ -43,6 +43,8 @@ from core.values import Floats
 # Largest drawn distance from the start of a route [m], and number of points.
 DRAWN = 2_000.0
 DRAWN_POINTS = 20_000
+# Length of the coils of a turn in the small picture of a notebook, before and behind it [m].
+WAY_BEFORE = 60.0
 # Largest gap [m] and kink [rad] of two joined pieces: rounding of coordinates up to 1 km.
 JOINT_GAP = 1e-9
 JOINT_KINK = 1e-9
@@ -338,6 +340,11 @@ class Route(Readable):
         """Points (N, 2) [m] for a picture: always the whole route."""
         s = np.linspace(max(self.begin, -DRAWN), min(self.end, DRAWN), DRAWN_POINTS)
         return self.position(s)
+
+    def _drawn_way(self) -> Floats:
+        """The whole route; a turn, which alone has a length of its own, with a little of its coils."""
+        stop = float(getattr(self, "length", math.inf))
+        return self.position(np.linspace(max(self.begin, -WAY_BEFORE), min(self.end, stop + WAY_BEFORE), WAY_MOST))
 
     def tangent(self, s: Floats | float) -> Floats:
         """Unit tangents in the direction of travel. s: (...) [m]; returns (..., 2)."""

@@ -216,6 +216,17 @@ def test_an_answer_about_an_instant_has_a_small_picture_with_the_benches_that_to
     assert drawn[0] + drawn[8] in answers[0]._repr_html_()
 
 
+@pytest.mark.parametrize(
+    "path", [Spiral(), core.Turn(1.7), lane((0.0, 0.0), (3.0, 4.0))], ids=["spiral", "turn", "lane"]
+)
+def test_a_path_and_a_dance_on_it_have_a_small_picture_of_the_way(path):
+    pictures = [re.findall('<path d="(.*?)"', one._repr_html_()) for one in (path, Dance(Dragon(2), path))]
+    assert pictures[0] == pictures[1] != []
+    x, y = (float(one) for one in pictures[0][0].removeprefix("M").split()[-1].split(","))
+    drawn = path.drawn(np.zeros((1, 2)))
+    assert np.hypot(*(drawn - (x, -y)).T).min() < 0.01
+
+
 def test_zero_has_no_sign_and_an_unknown_bound_is_called_so():
     assert format_range([-0.0, 1.0], "m") == "0 to 1 m"
     assert display((1.5, None), "m/s") == "1.5, unknown m/s"
@@ -230,6 +241,7 @@ def test_a_name_in_a_table_is_escaped():
 def test_a_table_of_many_pieces_or_points_stays_small():
     route = Route([Line((float(x), 0.0), (x + 1.0, 0.0)) for x in range(300)])
     for value, words in ((route, "<td>294</td>"), (CURVE, "and 994 more")):
-        table = value._repr_html_()
+        table, _, picture = value._repr_html_().partition("<svg")
         assert len(table) < 1_000
+        assert len(picture) < 14_000
         assert words in table

@@ -120,8 +120,7 @@ export const turn = {
     picture.dot(...shape.tangent_point, "hole", 4);
     picture.dot(...shape.exit, "knob", 8);
     picture.dot(...shape.entry, "knob", 8);
-    picture.text(say("entry"), ...shape.entry, "label", [12, 14]);
-    picture.text(say("exit"), ...shape.exit, "label", [12, -10]);
+    for (const [words, [x, y], down] of /** @type {[string, number[], number][]} */ ([[say("entry"), shape.entry, 14], [say("exit"), shape.exit, -10]])) picture.text(words, x, y, "label", [12, down]);
     picture.bar(1);
     return picture;
   },
