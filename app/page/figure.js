@@ -8,6 +8,7 @@ import { phrase, say } from "./text.js";
 import { walkText } from "./walk.js";
 
 const DEGREE = Math.PI / 180;
+const narrow = matchMedia("(max-width: 759px)");
 /** Numbers of a figure: name; read(drawing): its value, null without one; set(value, was): what of the figure changes; least, most. */
 const NUMBERS = {
   x: { words: phrase("Middle of the figure, x [m]"), read: (drawing) => extent(dancedOf(drawing)).middle[0], set: (x, was) => ({ by: [x - was, 0] }), least: -1e5, most: 1e5 },
@@ -33,7 +34,10 @@ export class Figure {
     });
     const labels = Object.keys(NUMBERS).map((name, k) => make("label", {}, `${name} `, this.fields[k], " "));
     this.box = make("p", { id: "figure", className: "bar", hidden: true }, make("b", { "data-text": phrase("Figure") }), " ", ...labels, this.turned, " ", freed);
-    stage.append(this.box);
+    // On a phone below the picture, which keeps its size when a thing is taken next.
+    const stand = () => (narrow.matches ? stage.after(this.box) : stage.append(this.box));
+    narrow.addEventListener("change", stand);
+    stand();
   }
 
   get #drawing() {

@@ -312,6 +312,11 @@ def test_a_figure_is_moved_sized_turned_and_mirrored_as_a_whole_until_it_is_free
     assert bent.count(bent[1]) == 3
     person.strikes("Delete").sees({".knot:visible": 6})
     person.presses("#undo", "#undo", "#undo").sees({"#figure": True, ".knot": 0})
+    # On a phone its numbers stand below the picture.
+    person = open_page(RING, **PHONE).sees(YES).presses("#edit").settles()
+    canvas = person.box("#canvas")
+    assert person.box("#figure")["y"] >= canvas["y"] + canvas["height"] - 1
+    assert person.findings() == []
 
 
 def test_by_keys_alone_a_list_leads_on_and_things_are_drawn_chosen_moved_and_taken_back(open_page):
