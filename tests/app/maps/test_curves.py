@@ -42,11 +42,6 @@ def test_an_arc_is_as_round_as_it_is(radius, start, end):
     assert swept[-1] - swept[0] == pytest.approx((end - start) % 360 * pi / 180 or 2 * pi)
 
 
-def test_the_unit_of_a_drawing_does_not_change_the_number_of_points():
-    metres = points_of(SPACE.add_arc((0, 0), 20.0, 0, 90), 1.0)
-    assert points_of(SPACE.add_arc((0, 0), 20_000.0, 0, 90), 0.001) == pytest.approx(metres)
-
-
 def test_a_mirrored_arc_is_mirrored():
     arc = SPACE.add_arc((3, 4), 2.0, 0, 90, dxfattribs={"extrusion": (0, 0, -1)})
     assert points_of(arc, 1.0)[[0, -1]] == pytest.approx(np.array([(-5.0, 4.0), (-3.0, 6.0)]))

@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -72,15 +71,6 @@ def east_north(origin, longitude, latitude):
     east = n * math.cos(p) * math.sin(dl)
     north = n * (math.sin(p) * math.cos(p0) * (1.0 - squared) - math.cos(p) * math.sin(p0) * math.cos(dl))
     return east, north + squared * n0 * math.sin(p0) * math.cos(p0)
-
-
-@pytest.mark.parametrize("east, west, name", [(0.5, 0.5, "square"), (180, -180, None)])
-def test_a_square_in_parts_is_one_square_also_if_it_is_cut_at_the_date_line(east, west, name):
-    """As in a map that is opened."""
-    parts = [box(east - 0.001, 0, east, 0.001), box(west, 0, west + 0.001, 0.001)]
-    shape = {"type": "MultiPolygon", "coordinates": [part["coordinates"] for part in parts]}
-    [area] = placed({"type": "Feature", "properties": {"name": name}, "geometry": shape}, "degrees").venue.areas
-    assert np.ptp(np.array(area.rings[0]), axis=0) == pytest.approx([222.6, 110.6], rel=1e-3)
 
 
 # -- the member crs ------------------------------------------------------------------------------------------
