@@ -33,7 +33,8 @@ RUN python -m venv /opt/docs \
 # and symbols of compiled modules, and the parts of pyarrow that talk to other servers.
 RUN cd /opt/bench-dragon/lib/python3*/site-packages \
     && /opt/bench-dragon/bin/python -m pip uninstall -y --quiet babel cython setuptools uv pip ipython ipython-pygments-lexers \
-        jedi parso prompt_toolkit \
+        asttokens executing jedi matplotlib-inline parso pexpect prompt_toolkit ptyprocess pure-eval stack-data traitlets \
+        wcwidth \
     && rm -rf pyarrow/include pyarrow/*flight* pyarrow/*s3* pyarrow/*gcsfs* pyarrow/*azurefs* pyarrow/*hdfs* \
         pyarrow/*orc* pyarrow/*feather* pyarrow/libarrow_python*.so pyarrow/*.1.0 \
     && find . -type f \( -name '*.cpython-*.so' -o -name '*.abi3.so' -o -path './pyarrow/lib*.so*' \) \
