@@ -30,10 +30,21 @@ from app.grade.words import word
 from app.wire.fields import Answer, Wire
 from app.wire.labels import Heading, Part, TextTable, value_text
 from app.wire.question import Command, Question, Terms
-from core import Dance, Dragon, FirstContact, Spiral, clearance_profile, first_contact, minimum_pitch
+from core import (
+    Budget,
+    Dance,
+    Dragon,
+    FirstContact,
+    Spiral,
+    TooMuchWork,
+    clearance_profile,
+    first_contact,
+    minimum_pitch,
+)
 from core import trajectory as trajectory_of
 from core.design.pitch_scan import Stops
-from core.language import Language, say, speaking, spoken
+from core.kernels import Halted
+from core.language import Language, say
 from core.sampling import bisect
 from core.shapes.rectangles import corners, literal_corners
 
@@ -124,40 +135,42 @@ class _Number:
         )
 
 
-@cache
-def comparison(language: Language) -> tuple[PaperNumber, ...]:
-    """The four numbers that the paper reports, for its own dragon and spiral."""
-    with speaking(language):
-        return tuple(number.in_words() for number in _numbers())
+def comparison(budget: Budget) -> Iterator[PaperNumber]:
+    """The four numbers that the paper reports, for its own dragon and spiral. raises: Halted between two of them"""
+    for number in (_length, _collision_time, _collision_radius, _minimum_pitch):
+        budget.look()
+        yield number().in_words()
 
 
-@cache
-def _numbers() -> tuple[_Number, ...]:
-    contact = first_contact(Dance(Dragon(), Spiral()))
-    length = _Number("length", "m", PAPER_LENGTH, Spiral().length, {}, {})
-    return (length, _collision_time(contact), _collision_radius(contact), _minimum_pitch())
-
-
-@cache
-def literature(language: Language) -> tuple[PublishedNumber, ...]:
-    """The numbers of other publications, each with the shortcut that gives it where one is known."""
-    with speaking(language):
-        return tuple(
-            PublishedNumber(
-                quantity=word(name),
-                unit=one.unit,
-                source=source,
-                published=one.found,
-                ours=one.expected,
-                difference=one.expected - one.found,
-                diagnosis=one.diagnosis,
-            )
-            for source, name, text in PUBLISHED
-            for one in [typed(name, text)]
+def literature(budget: Budget) -> Iterator[PublishedNumber]:
+    """The numbers of other publications, each with the shortcut that gives it where one is known. raises: Halted"""
+    for source, name, text in PUBLISHED:
+        budget.look()
+        one = typed(name, text)
+        yield PublishedNumber(
+            quantity=word(name),
+            unit=one.unit,
+            source=source,
+            published=one.found,
+            ours=one.expected,
+            difference=one.expected - one.found,
+            diagnosis=one.diagnosis,
         )
 
 
-def _collision_time(contact: FirstContact) -> _Number:
+@cache
+def _contact() -> FirstContact:
+    return first_contact(Dance(Dragon(), Spiral()))
+
+
+@cache
+def _length() -> _Number:
+    return _Number("length", "m", PAPER_LENGTH, Spiral().length, {}, {})
+
+
+@cache
+def _collision_time() -> _Number:
+    contact = _contact()
     assert contact.time is not None
     loose = angle_sum_time(corners, LOOSE_ANGLE)
     there = clearance_profile(Dance(Dragon(), Spiral()), np.array([PAPER_TIME]))
@@ -174,7 +187,9 @@ def _collision_time(contact: FirstContact) -> _Number:
     return _Number("time", "s", PAPER_TIME, contact.time, values, evidence)
 
 
-def _collision_radius(contact: FirstContact) -> _Number:
+@cache
+def _collision_radius() -> _Number:
+    contact = _contact()
     assert contact.head is not None
     head = trajectory_of(Dance(Dragon(benches=1), Spiral()), [PAPER_TIME]).position[0, 0]
     radius = float(np.hypot(*head))
@@ -185,6 +200,7 @@ def _collision_radius(contact: FirstContact) -> _Number:
     return _Number("radius", "m", PAPER_RADIUS, contact.head.radius, values, evidence)
 
 
+@cache
 def _minimum_pitch() -> _Number:
     result = minimum_pitch(Dragon(), turning_radius=TURNING_RADIUS)
     # The bisection of section 3.3, for a head that stops at the circle.
@@ -210,8 +226,17 @@ def _contact_radius(pitch: float) -> float:
 
 
 def paper(request: PaperQuery, terms: Terms) -> PaperTable:
-    """The paper's reported numbers beside ours, with the reason for each difference."""
-    return PaperTable(rows=list(comparison(spoken())), literature=list(literature(spoken())))
+    """The paper's reported numbers beside ours, with the reason for each difference.
+
+    raises: TooMuchWork once the budget is stopped; what was computed is kept for the next call
+    """
+    try:
+        return PaperTable(rows=list(comparison(terms.budget)), literature=list(literature(terms.budget)))
+    except Halted as halted:
+        words, advice = "the paper was not recomputed {then}", "ask again, for what was computed is kept"
+        error = TooMuchWork.in_words("language", words, reason=advice, then=terms.budget.then)
+        error.stopped = True
+        raise error from halted
 
 
 def _parts(answer: PaperTable, request: Wire) -> Iterator[Part]:

@@ -4,10 +4,13 @@ import re
 
 import pytest
 
-from app.questions.paper import comparison, literature
-from core import Dance, Dragon, Spiral, first_contact, minimum_pitch
-from core.language import Language
+from app.questions.paper import PaperQuery, comparison, literature, paper
+from app.settings import Settings
+from app.wire.question import Terms
+from core import Budget, Dance, Dragon, Spiral, TooMuchWork, first_contact, minimum_pitch
+from core.language import Language, speaking
 from tests.support.near import assert_near
+from tests.support.refused import refused
 
 # Printed digits of the paper, and how well the reference values are known.
 MICROMETRE = 0.5e-6  # [m]
@@ -22,7 +25,7 @@ LENGTH, TIME, RADIUS, PITCH = (
 
 @pytest.fixture(scope="module")
 def rows():
-    return {row.quantity: row for row in comparison(Language.ENGLISH)}
+    return {row.quantity: row for row in comparison(Budget())}
 
 
 def evidence(row, start):
@@ -50,9 +53,18 @@ def test_the_exact_angle_rule_and_a_bisection_of_the_radius_agree_with_ours(rows
 
 
 def test_in_chinese_no_english_word_is_left_and_a_reason_tells_the_same_numbers():
-    for english, chinese in zip(comparison(Language.ENGLISH), comparison(Language.CHINESE), strict=True):
+    with speaking(Language.CHINESE):
+        translated, others = list(comparison(Budget())), list(literature(Budget()))
+    for english, chinese in zip(comparison(Budget()), translated, strict=True):
         words = [chinese.quantity, chinese.source, chinese.reason, *(fact.what for fact in chinese.evidence)]
         assert [word for word in words if re.search("[a-zA-Z]{3}", word.replace("cos", ""))] == []
         numbers = [set(re.findall(r"\d[\d.]*\d|\d", one.reason)) for one in (english, chinese)]
         assert numbers[0] == numbers[1]
-    assert all(re.match("首次碰撞时刻|最小螺距", one.quantity) for one in literature(Language.CHINESE))
+    assert all(re.match("首次碰撞时刻|最小螺距", one.quantity) for one in others)
+
+
+def test_the_paper_is_not_recomputed_beyond_the_deadline():
+    budget = Budget()
+    budget.stop()
+    with refused("language", TooMuchWork):
+        paper(PaperQuery(), Terms(Settings(), budget))
