@@ -62,7 +62,8 @@ export class Editor extends Chosen {
     canvas.addEventListener("keydown", (event) => this.#next(event));
     canvas.addEventListener("pointerdown", (event) => this.#seize(event), { capture: true });
     canvas.addEventListener("pointermove", (event) => this.#pull(event));
-    for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, (event) => this.#drop(event));
+    // Wherever it ends: what is dragged may have been removed meanwhile.
+    for (const type of ["pointerup", "pointercancel"]) addEventListener(type, (event) => this.#drop(/** @type {PointerEvent} */ (event)));
     addEventListener("keydown", (event) => this.#command(event));
     // A tool that was taken by a key is used by keys.
     addEventListener("click", ({ detail, target }) => !detail && target instanceof Element && target.matches(":is([data-tool], [data-add]):not([data-tool=kits], [data-add=kits])") && this.active && canvas.focus({ preventScroll: true }));
@@ -280,10 +281,9 @@ export class Editor extends Chosen {
     return this.#grips.around(event, drag);
   }
 
-  /** What a pressed button does while its pointer moves and when it is let go. */
+  /** What a pressed button does while its pointer moves. */
   get #dragging() {
-    const drop = (event) => this.#drop(event);
-    return { onpointermove: (event) => this.#pull(event), onpointerup: drop, onpointercancel: drop };
+    return { onpointermove: (event) => this.#pull(event) };
   }
 
   #knot(k) {
@@ -354,13 +354,13 @@ export class Editor extends Chosen {
   }
 
   #hold({ pointerId: pointer, clientX, clientY }, drag) {
+    if (this.isDragging) return announce(() => say("Something is being dragged already: let it go first."));
     this.dance.view.fitted = false;
     this.#drag = { ...drag, pointer, from: [clientX, clientY], part: this.#part, base: this.edited, far: false };
   }
 
   #pull(event) {
     const drag = this.#drag;
-    // Of a finger and a mouse at once, the one that began moves it.
     if (!drag || event.pointerId !== drag.pointer) return;
     drag.far ||= Math.hypot(event.clientX - drag.from[0], event.clientY - drag.from[1]) > TRAVEL;
     if (!drag.far) return;

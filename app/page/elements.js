@@ -32,14 +32,12 @@ export function colours(element = document.documentElement) {
 
 /** The two sizes of type in pictures, as those of the page [px]. */
 export const [SMALL_TYPE, USUAL_TYPE] = [13.12, 15];
-/** Size of the chosen type as a share of the usual one [1]; 0 until it is read, once for all names of a picture. */
+/** Size of the chosen type as a share of the usual one [1]; 0 until it is read, because reading it makes the browser compute all styles. */
 let type = 0;
+for (const change of ["look", "resize"]) globalThis.addEventListener?.(change, () => (type = 0), { capture: true });
 /** A length in the usual size of the type in the chosen one [px]. */
 export function inType(pixels) {
-  if (!type) {
-    type = Number.parseFloat(getComputedStyle(document.documentElement).fontSize) / 16;
-    queueMicrotask(() => (type = 0));
-  }
+  type ||= Number.parseFloat(getComputedStyle(document.documentElement).fontSize) / 16;
   return pixels * type;
 }
 

@@ -17,7 +17,7 @@ export class Grips {
   buttons = Object.fromEntries(Object.keys(GRIPS).map((kind) => [kind, this.#grip(kind)]));
 
   /**
-   * hold(event, kind): a pointer has pressed one; dragging: what a pressed button does while its pointer moves and when it is let go
+   * hold(event, kind): a pointer has pressed one; dragging: what a pressed button does while its pointer moves
    * @param {Editor} editor
    */
   constructor(editor, hold, dragging) {

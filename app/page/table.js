@@ -15,13 +15,19 @@ export class Table {
   #rows = [];
   #count = 0;
   #queued = false;
+  /** What is in sight of it, kept because reading it during a change costs a layout of the whole page: its scroll and its height [px]. */
+  #sight = [0, 0];
 
   /** choose(step): called to choose a row some steps further; chosen(handle): called to choose a row */
   constructor(box, { choose, chosen }) {
     this.box = box;
     this.body = box.querySelector("tbody");
     this.table = box.querySelector("table");
-    box.addEventListener("scroll", () => this.#queue());
+    const look = () => {
+      this.#sight = [box.scrollTop, box.clientHeight];
+      this.#queue();
+    };
+    box.addEventListener("scroll", look);
     box.addEventListener("keydown", (event) => {
       if (!(event.key in KEYS)) return;
       event.preventDefault();
@@ -31,7 +37,8 @@ export class Table {
       const row = event.target.closest("tr[data-handle]");
       if (row) chosen(Number(row.dataset.handle));
     });
-    new ResizeObserver(() => this.#queue()).observe(box);
+    new ResizeObserver(look).observe(box);
+    look();
   }
 
   show(pose) {
@@ -64,8 +71,9 @@ export class Table {
     this.#queued = false;
     if (!this.#pose) return;
     const { x, y, speed } = this.#pose;
-    const first = Math.max(0, Math.floor(this.box.scrollTop / ROW) - SPARE);
-    const last = Math.min(x.length, first + Math.ceil(this.box.clientHeight / ROW) + 2 * SPARE);
+    const [top, high] = this.#sight;
+    const first = Math.max(0, Math.floor(top / ROW) - SPARE);
+    const last = Math.min(x.length, first + Math.ceil(high / ROW) + 2 * SPARE);
     // Rows stay while the same handles are visible, because a row that is replaced under the mouse gets no click.
     if (first !== this.#first || last - first !== this.#rows.length || x.length !== this.#count) {
       [this.#first, this.#count] = [first, x.length];

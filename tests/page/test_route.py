@@ -438,8 +438,23 @@ def test_a_finger_drags_points_and_trees_on_a_phone_and_nothing_is_cut_off(open_
     assert points(person.sees({"#menu": False, "#verdict": "可以表演"}))[2][1] > before[2][1]
     assert not person.overflows(390)
     assert person.findings() == []
+    _a_mouse_takes_nothing_while_a_finger_drags(person)
     _a_tree_goes_upwards_as_far_as_the_finger(person.opens(S_CURVE))
     _a_stroke_draws_a_path_to_which_the_next_one_is_added(person.opens("?door=village&path=route&benches=2"))
+
+
+def _a_mouse_takes_nothing_while_a_finger_drags(person):
+    before = points(person)
+    first, second = (person.box(knot(k)) for k in (2, 4))
+    finger = person.page.context.new_cdp_session(person.page)
+    for kind, y in (("touchStart", 0), ("touchMove", 10), ("touchMove", 20)):
+        place = {"x": first["x"] + 11, "y": first["y"] + 11 + y}
+        finger.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [place]})
+    person.drags_from(second["x"] + 11, second["y"] + 11, 30, 0).sees({"#status": "已有东西在拖动"})
+    finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    after = points(person)
+    assert [k for k, point in enumerate(after) if point != before[k]] == [2]
+    assert points(person.presses("#undo")) == before
 
 
 def _a_tree_goes_upwards_as_far_as_the_finger(person):
