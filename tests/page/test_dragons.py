@@ -107,7 +107,7 @@ def test_dragons_to_begin_with_leave_what_a_person_has_drawn_and_who_waits_is_le
     person.page.emulate_media(color_scheme="dark")
     person.settles().holds({"#dragon-colour-0": "#ff8b7c"})
     assert [person.coloured(one) > 0 for one in ("#ff8b7c", COLOURS[0])] == [True, False]
-    person.presses("#dragon-wait-1").sees({"#judgement": "Can be danced", "#status": "blue waits "})
+    person.presses("#dragon-wait-1").sees({"#status": "blue waits ", "#judgement": "Can be danced"})
 
 
 def takes_back_what_it_began_with(person):
@@ -236,7 +236,7 @@ def a_delay_that_is_not_found_says_why(person):
     path = {"type": "LineString", "coordinates": [[-40, 0], [60, 0]]}
     line = {"type": "Feature", "properties": {"name": "path"}, "geometry": path}
     file = {"name": "path.geojson", "mimeType": "application/geo+json", "buffer": json.dumps(line).encode()}
-    person.takes(file).presses("#instead").sees({"#dragons-apart": False, "#status": "path.geojson"})
+    person.takes(file).presses("#instead").sees({"#status": "path.geojson", "#dragons-apart": False})
     person.types({"#dragon-delay-1": "40"}).sees({"#dragons-apart": False})
 
 
