@@ -40,10 +40,10 @@ from app.grade.numbers import explained, rounded_right
 from app.grade.outside import Outside, outside_of, same_cells, without
 from app.grade.pairs import pairs
 from app.grade.rings import wrong_ring
-from app.grade.seen_paths import other_paths
+from app.grade.seen_paths import other_paths, other_spiral, rotated, rotation_by
 from app.grade.shortcuts import Finding
 from app.grade.words import Note, Values, note, word
-from core import Budget, Dance
+from core import Budget, Dance, Spiral
 from core.values import Floats
 
 # Fewest decimals with which errors can be distinguished.
@@ -390,6 +390,20 @@ def _at_instants(position: JudgedSheet, seen: SheetClues) -> Iterator[tuple[floa
         yield instant, decimals, models
     for instant, decimals in others:
         yield instant, decimals, own_lengths(dance, seen)
+    yield at_right, INSTANT_DECIMALS, _on_other_spiral(position, seen)
+
+
+def _on_other_spiral(position: JudgedSheet, seen: SheetClues) -> Iterator[Model]:
+    """The motion on a spiral of another pitch, at the instant at which the head is at its place there."""
+    if seen.lead is None or (shown := other_spiral(position)) is None:
+        return
+    dance, pitch, angle = shown
+    back = rotation_by(-angle)[:2, :2]
+    on_spiral = replace(position, dance=dance, values=position.values @ back)
+    if (span := _instants(on_spiral, seen, back)) is not None:
+        shift = simplest(span) - float(position.times[0])
+        values = {"pitch": f"{pitch:.6g}", "right": f"{Spiral().pitch:g}"}
+        yield Model("other_pitch_then", shifted_time(rotated(of_dance(dance), angle), shift).motion, values)
 
 
 def _only_then(dance: Dance, instant: float, decimals: int) -> Model:

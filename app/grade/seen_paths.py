@@ -76,7 +76,7 @@ def other_paths(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model
     with suppress(BenchDragonError):
         radius = coil.pitch * coil.turns
         path = Turn(coil.pitch, radius) if spiral is None else Spiral(coil.pitch, coil.turns)
-        motion = _rotated(of_dance(Dance(dance.dragon, path, coil.speed)), coil.rotation)
+        motion = rotated(of_dance(Dance(dance.dragon, path, coil.speed)), coil.rotation)
         values = {"pitch": f"{coil.pitch:.6g}", "radius": f"{radius:.6g}", "right": f"{right:g}"}
         speed = Model("other_speed", motion, {"speed": f"{coil.speed:.6g}"})
         if not has_pitch:
@@ -85,10 +85,45 @@ def other_paths(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model
             yield Model("other_pitch", motion, values, beside=speed if has_speed else None)
 
 
-def _rotated(motion: Motion, angle: float) -> Motion:
-    cosine, sine = math.cos(angle), math.sin(angle)
-    turn = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+def other_spiral(one: JudgedSheet) -> tuple[Dance, float, float] | None:
+    """The dance on a spiral of another pitch on which all handles stand at one instant, its pitch [m] and
+    rotation [rad].
+
+    At one instant nothing shows where the dance began: it begins on the right turn.
+    """
+    order = np.argsort(one.handles)
+    places = one.values[0, order][one.known[order], :2]
+    spiral = one.dance.path.spiral
+    if spiral is None or len(places) < PLACES_LEAST or not np.isfinite(places).all():
+        return None
+    radii, angles = np.hypot(*places.T), np.unwrap(np.arctan2(places[:, 1], places[:, 0]))
+    fitted = 2.0 * math.pi * float(np.polyfit(angles, radii, 1)[0])
+    for decimals in PITCH_DECIMALS:
+        pitch = round(fitted, decimals)
+        if pitch <= 0.0 or abs(pitch - spiral.pitch) <= PITCH_LEAST:
+            continue
+        growth = pitch / (2.0 * math.pi)
+        rotation = float(np.median(angles - radii / growth))
+        if np.quantile(np.abs(radii - growth * (angles - rotation)), SHARE) > WITHIN * one.usual_tolerance:
+            continue
+        begun = spiral.pitch * spiral.start_turns / growth
+        near = max(MEASURED, one.usual_tolerance) / growth
+        rotation = next((one for one in (0.0, -begun) if abs(_wrapped(rotation - one)) < near), rotation)
+        with suppress(BenchDragonError):
+            path = Spiral(pitch, spiral.start_turns)
+            return Dance(one.dance.dragon, path, one.dance.head_speed), pitch, rotation
+    return None
+
+
+def rotated(motion: Motion, angle: float) -> Motion:
+    turn = rotation_by(angle)
     return lambda times: motion(times) @ turn
+
+
+def rotation_by(angle: float) -> Floats:
+    """What turns the rows x, y, speed about the centre by an angle [rad]."""
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
 
 
 def _coil_of(times: Floats, places: Floats, right: float, tolerance: float) -> _Coil | None:

@@ -19,7 +19,7 @@ from app.grade.shortcuts import Finding
 # Most numbers of a file, and fewest decimals of one.
 MOST, DECIMALS_LEAST = 24, 4
 # Errors with a size of their own, which few teams share by chance.
-OWN_SIZES = {"other_pitch", "other_speed", "own_lengths"}
+OWN_SIZES = {"other_pitch", "other_pitch_then", "other_speed", "own_lengths"}
 
 
 def unusual_of(judgements: Sequence[JudgedSheet], findings: Sequence[Finding]) -> list[str]:

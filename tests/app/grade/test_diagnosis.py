@@ -11,7 +11,7 @@ import pytest
 from app.grade.decimals import digits_of
 from app.grade.limits import TIGHTER_TURN
 from app.grade.report import graded
-from core import Budget, Dance, Dragon, Spiral
+from core import Budget, Dance, Dragon, Spiral, first_contact
 from tests.campaigns.hunt_grades import hunt
 from tests.support import students
 from tests.support.depth import further, often
@@ -57,6 +57,7 @@ KNOWN = {
     "other_question": lambda: tenth(turn(TURN_TIMES[:101]), TURN_TIMES[:101] + 100.0),
     "outside_blank": lambda: first(students.outside(np.nan)),
     "outside_line": lambda: first(students.on_line()),
+    "contact: other_pitch_then": lambda: students.contact_workbook(of_pitch(0.5)),
     "contact: other_instant": lambda: students.contact_workbook(spiral(np.array([412.48]))),
 }
 # What no student does: each is wrong, and none of the known errors gives it.
@@ -66,6 +67,12 @@ UNKNOWN = {
     "some handles swapped": lambda: first(swapped()),
     "contact: moved": lambda: students.contact_workbook((spiral(AT_CONTACT)[0] + 0.05, spiral(AT_CONTACT)[1])),
 }
+
+
+def of_pitch(pitch, **start):
+    """The first contact on a spiral of another pitch."""
+    dance = Dance(Dragon(), Spiral(pitch, **start))
+    return students.of(dance, [first_contact(dance).time])
 
 
 def rounded(results, decimals):
