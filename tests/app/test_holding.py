@@ -23,6 +23,7 @@ from app.files.tables import CSV_TYPE
 from app.processes.limits import AWAITED_NICENESS
 from tests.app.conftest import ANSWER_TIMEOUT
 from tests.support.asking import box
+from tests.support.attacks import million_cells
 from tests.support.depth import further, thorough
 from tests.support.job_service import is_gone, wait_for
 from tests.support.serving import sample, serving
@@ -409,6 +410,22 @@ def test_a_service_whose_counts_were_removed_answers_and_replaces_its_processes(
         for _ in range(10):
             assert httpx.get(f"{service.url}/collision-time").status_code == 200
         wait_for(lambda: is_gone(worker))
+
+
+@pytest.mark.thorough
+def test_an_answer_whose_process_is_killed_is_never_taken_for_a_whole_one(tmp_path):
+    table = {"content": million_cells(), "headers": {"Accept": CSV_TYPE, "Content-Type": "application/json"}}
+    with serving(tmp_path / "log", workers=2) as service, httpx.Client(base_url=service.url, timeout=SOON) as client:
+        with client.stream("POST", "/trajectory", **table) as answer:
+            blocks = answer.iter_raw()
+            next(blocks)
+            ours = answer.extensions["network_stream"].get_extra_info("client_addr")
+            for process in psutil.Process(service.process.pid).children():
+                if any(other.raddr == ours for other in process.net_connections()):
+                    process.kill()
+            with pytest.raises(httpx.RemoteProtocolError):
+                list(blocks)
+        assert client.get("/collision-time").status_code == 200
 
 
 @pytest.mark.thorough
