@@ -10,6 +10,8 @@ const WAYS = { ArrowDown: 1, ArrowUp: -1 };
 
 export class Menu {
   #press = 0;
+  /** Closes it. */
+  leave = () => {};
 
   /**
    * stage: the box of the picture
@@ -41,18 +43,21 @@ export class Menu {
   }
 
   /** Open the menu, unless it is open, or what was pressed is being dragged. */
-  #ask({ clientX, clientY }) {
-    if (!this.editor.isDragging && !this.box.matches(":popover-open")) this.open(clientX, clientY);
+  #ask({ clientX, clientY, button, pointerType, target }) {
+    if (this.editor.isDragging || this.box.matches(":popover-open")) return;
+    // A key opens it for what is chosen, a hand for what is under it.
+    const isKey = button !== 2 && pointerType !== "touch" && target === this.editor.dance.canvas && this.editor.items.length > 0;
+    if (!isKey) this.editor.reach(clientX, clientY);
+    this.open(clientX, clientY);
   }
 
   #end({ type, clientX, clientY }) {
     if (this.from && (type !== "pointermove" || Math.hypot(clientX - this.from[0], clientY - this.from[1]) > TRAVEL)) clearTimeout(this.#press);
   }
 
-  /** Open the menu of what is under a place of the window [px]. */
+  /** Open the menu of what is chosen at a place of the window [px]. */
   open(x, y) {
     const { editor } = this;
-    editor.reach(x, y);
     const { items, held, canPaste, steps } = editor;
     const isAny = items.length > 0;
     const point = held === null ? null : held + 1;
@@ -67,8 +72,14 @@ export class Menu {
       [phrase("Choose several"), () => editor.take("several"), !isAny && point === null],
       [phrase("Undo"), () => steps.undo(), steps.canUndo],
     ];
-    const act = (does) => () => {
+    const before = document.activeElement;
+    // Keys go on where they were.
+    this.leave = () => {
       this.box.hidePopover();
+      if (before instanceof HTMLElement) before.focus({ preventScroll: true });
+    };
+    const act = (does) => () => {
+      this.leave();
       does();
     };
     const buttons = lines.filter(([, , isThere]) => isThere).map(([words, does]) => button({ role: "menuitem", textContent: say(words, { k: point }) }, act(does)));
@@ -82,7 +93,7 @@ export class Menu {
 
   #move(event) {
     if (event.key === "Escape" || event.key === "Tab") {
-      this.box.hidePopover();
+      this.leave();
       event.stopPropagation();
       event.preventDefault();
     }

@@ -334,6 +334,7 @@ def test_by_keys_alone_a_list_leads_on_and_things_are_drawn_chosen_moved_and_tak
     person.focuses("#canvas").strikes("]").sees({"#told": "square: x 0 m", "#beside": True})
     person.strikes("[").sees({"#told": f"tree: x {x:g} m, y {y:g} m"})
     person.strikes("ArrowLeft").sees({"#told": f"tree: x {x - 0.1:.2g} m"})
+    person.strikes("Shift+F10").sees({"#menu": ["Duplicate", "Delete"]}).strikes("Escape")
     person.strikes("ControlOrMeta+d", "Delete", "ControlOrMeta+z", "ControlOrMeta+z", "ControlOrMeta+z")
     assert person.settles().address()["things"] == tree
     person.speaks("zh").strikes("?").sees({"#keys": ["下一步：设计一场舞龙", "按住 Shift 为 1 cm"]})
