@@ -1,6 +1,6 @@
 /** Several dragons on one clock: their list, the question about all of them, and their common picture. */
 
-import { Problem, Superseded } from "./api.js";
+import { Problem, Superseded, TOO_LONG } from "./api.js";
 import { joined, offsetOf, shiftedPath } from "./changes.js";
 import { SPAN, announceOpened, leftWords, wishesIn, wishesOf } from "./files.js";
 import { benchesOf, numbersOfListed } from "./read_table.js";
@@ -232,13 +232,16 @@ export class Dragons {
     const contact = Object.fromEntries(CONTACT.filter((name) => name in limits).map((name) => [name, limits[name]]));
     const spoken = language();
     let [answer, problem] = [{ safe: [], summary: "" }, null];
+    const ask = (from, most) => this.service.ask("safe delay", "safe-delay", { body: { dances, ...contact, part: k, least: from, most } });
     try {
-      const body = { dances, ...contact, part: k, least, most: least + WAIT_MOST };
-      answer = await this.service.ask("safe delay", "safe-delay", { body });
+      answer = await ask(least, least + WAIT_MOST);
     } catch (error) {
       if (error instanceof Superseded) return;
       if (!(error instanceof Problem)) throw error;
       ({ problem } = error);
+      // Once the others have ended, one look suffices.
+      const end = Math.ceil(this.questions.dance?.report?.stop ?? 0);
+      if (problem.type === TOO_LONG && end > least) answer = await ask(end, end + 1).catch(() => answer);
     }
     if (this.#text !== text) return; // A person has changed the dragons meanwhile.
     const [first] = answer.safe;
@@ -250,7 +253,8 @@ export class Dragons {
     const next = records.with(k, { ...records[k], delay: delay ? String(delay) : "" });
     if (isStep) {
       this.#take(next);
-      announceStep(() => answer.summary);
+      const name = this.#nameOf(next, k);
+      announceStep(() => (problem ? say("The shortest wait of {name} takes too long to find; {delay} s are safe: then the others have ended.", { name, delay }) : answer.summary));
       // It belongs to the step in which the dragon was added.
     } else if (delay > least) this.state.set({ dances: this.#textOf(next, this.#active) });
   }

@@ -232,6 +232,22 @@ def a_delay_that_is_not_found_says_why(person):
         {"#dragons-apart": ["最长等待时间最多为 1000000 s", "请自行填写延迟"]}
     )
     person.page.unroute_all()
+    # Where the search takes too long, whoever waits until the others have ended is safe.
+    refusal = {"type": "urn:problem-type:bench-dragon:too-much-work", "status": 422, "detail": "too long", "errors": []}
+
+    def long_search(route):
+        body = route.request.post_data_json
+        if body["most"] - body["least"] > 1.0:
+            route.fulfill(status=422, content_type="application/problem+json", body=json.dumps(refusal))
+        else:
+            route.continue_()
+
+    person.page.route("**/safe-delay", long_search)
+    person.speaks("en").presses("#dragon-wait-1").sees({"#status": "then the others have ended"})
+    person.sees({"#judgement": "Can be danced"})
+    person.page.unroute_all()
+    assert float(person.settles().at("#dragon-delay-1").input_value()) > 20.0
+    person.presses("#undo").settles()
     # Another drawing is another dance.
     path = {"type": "LineString", "coordinates": [[-40, 0], [60, 0]]}
     line = {"type": "Feature", "properties": {"name": "path"}, "geometry": path}
