@@ -25,6 +25,7 @@ from .course import Course, TightBend, course
 from .dance import Dance, EndReason, RunEnd
 from .design.deepest_turn import DeepestTurn, TurnLimit, deepest_turn
 from .design.dubins_turn import DubinsTurn, dubins_turn
+from .design.followed_turn import followed_turn
 from .design.minimum_pitch import MinimumPitch, minimum_pitch
 from .design.pitch_check import pitch_check
 from .design.pitch_scan import PitchScan, pitch_scan
@@ -232,6 +233,7 @@ __all__ = [
     "first_contacts",
     "first_encounter",
     "first_excess",
+    "followed_turn",
     "highest_speed",
     "least_clearance",
     "maximum_head_speed",

@@ -30,6 +30,11 @@ class ShortestTurnFields(Strays, TurnCircle):
         False,
         description="true: the ratio is free too, so that `ratio` does not matter; a search of a minute, for a job",
     )
+    any_bend: bool = Field(
+        False,
+        description="true: arcs may be as tight as every bench is proven to follow; false: at least half the longest "
+        "distance of two handles over 0.999. For one ratio; a search of a minute, for a job",
+    )
 
 
 class ShortestTurnQuery(ShortestTurnFields, UniformDragon):
@@ -58,6 +63,7 @@ class ShortestTurn(Turn):
         description="Reason against a shorter turn. least_radius: a bend has the least radius that is taken for the "
         "longest chord, 0.1 % more than it needs, because a proof does (bend: the former name, which no answer has); "
         "circle: it begins or ends on the circle; contact: benches come nearer than the margin, or touch if it is 0; "
+        "following: in every shorter turn a bench cannot follow, or benches touch, with any_bend alone; "
         "centre: nothing prevents it, down to the centre; undecided: rounding hides whether benches come within the "
         "margin at the lower end of entry_bracket"
     )
@@ -81,6 +87,9 @@ def shortest_turn(request: ShortestTurnQuery | ShortestTurnRequest, terms: Terms
     dragon = request.to_dragon(terms.settings.checked_benches_max)
     about = {"start_turns": request.start_turns, "margin": request.margin, "stray": request.to_stray()}
     circle = (request.pitch, request.turning_diameter / 2)
+    if request.any_bend and (request.any_ratio or request.exit_opposite):
+        rule = "must be false with any_ratio or exit_opposite: the search over bends has one ratio, and any exit"
+        raise core.InvalidValue("any_bend", rule)
     result: core.ShortestTurn | core.DeepestTurn
     if request.exit_opposite:
         if request.any_ratio:
@@ -90,8 +99,11 @@ def shortest_turn(request: ShortestTurnQuery | ShortestTurnRequest, terms: Terms
         result = core.deepest_turn(dragon, *circle, request.ratio, **about, budget=terms.budget)
         own: dict[str, float | None] = {"length_bracket": None, "exit_bracket": None}
     else:
-        ratio = None if request.any_ratio else request.ratio
-        result = core.shortest_turn(dragon, *circle, ratio, **about, budget=terms.budget)
+        if request.any_bend:
+            result = core.followed_turn(dragon, *circle, request.ratio, **about, budget=terms.budget)
+        else:
+            ratio = None if request.any_ratio else request.ratio
+            result = core.shortest_turn(dragon, *circle, ratio, **about, budget=terms.budget)
         own = {"benches": None, "time": None, "scan_step": 0.0}
     on_circle = core.Turn(*circle, result.turn.ratio, start_turns=request.start_turns).length
     sentences = [

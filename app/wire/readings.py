@@ -30,6 +30,10 @@ TURN_LIMITS: Phrases = {
         "Limited by the least radius of a bend that is taken here: half of the longest distance of two handles and 0.1 "
         "% more, at which every bench can follow."
     ),
+    TurnLimit.FOLLOWING: (
+        "Limited by what benches can follow, or by contact: in each turn of this ratio that is excluded, a bench would "
+        "jump, go backwards or stand across the path, or benches {meet}."
+    ),
     TurnLimit.CIRCLE: "Limited by the circle, where it begins or ends.",
     TurnLimit.CONTACT: "Limited by contact: in turns beside it benches {meet}.",
     TurnLimit.UNDECIDED: "Rounding hides whether benches {meet} in a shorter turn.",

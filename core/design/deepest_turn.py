@@ -68,7 +68,8 @@ class TurnLimit(StrEnum):
     the deepest entry that is tried. LEAST_RADIUS: half of the longest chord over ROUTE_SINE_LIMIT, at which every bench
     can follow; tighter arcs that can be followed too (core/paths/following.py) are not tried. UNDECIDED: rounding hides
     whether two benches come within the margin. CIRCLE: the turn begins or ends on its circle (shortest_turn() alone).
-    BEND: what LEAST_RADIUS was called; no answer has it.
+    FOLLOWING: in every shorter turn a bench cannot follow, or benches touch (followed_turn() alone). BEND: what
+    LEAST_RADIUS was called; no answer has it.
 
     >>> from core import shortest_turn
     >>> shortest_turn(Dragon(), 1.7).limited_by
@@ -81,6 +82,7 @@ class TurnLimit(StrEnum):
     CENTRE = "centre"
     UNDECIDED = "undecided"
     CIRCLE = "circle"
+    FOLLOWING = "following"
 
     @property
     def words(self) -> str:
@@ -89,7 +91,11 @@ class TurnLimit(StrEnum):
         >>> TurnLimit.LEAST_RADIUS.words
         'the least radius of a bend'
         """
-        return say("the least radius of a bend") if self is TurnLimit.LEAST_RADIUS else say(self.value)
+        words = {
+            TurnLimit.LEAST_RADIUS: phrase("the least radius of a bend"),
+            TurnLimit.FOLLOWING: phrase("what benches can follow"),
+        }
+        return say(words.get(self, self.value))
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -4,7 +4,7 @@ The turns are those of core/paths/turn.py: the entry at a radius a, the exit at 
 circle, and a ratio of the arcs' radii, known or free. A turn counts if both radii are at least half the longest chord
 over ROUTE_SINE_LIMIT (core/kernels/constants.py), so that every bench can follow, and if no two benches come within the
 margin on all of its coils and arcs. Turns with a tighter arc that every bench is proven to follow
-(core/paths/following.py) do not count, though some are shorter.
+(core/paths/following.py) do not count, though some are shorter: see core/design/followed_turn.py.
 
 Above: a turn that was danced, and proven free of contact by first_contact() (core/design/deepest_turn.py: contact_in).
 Below: branch and bound. Boxes of (a, v, log ratio) cover all turns (v: core/design/turn_boxes.py). A box is excluded
@@ -21,6 +21,7 @@ The search is over all turns of the family; it assumes the arithmetic of doubles
 from __future__ import annotations
 
 import math
+import sys
 from dataclasses import dataclass
 
 import numpy as np
@@ -155,15 +156,7 @@ def shortest_turn(
     circle = checked_circle(pitch, turning_radius, ratio, start_turns, margin, any_ratio=True)
     stray = checked_stray(stray, dragon)
     work = (budget or Budget()).within(RATIOS_WORK if ratio is None else SHORTEST_WORK)
-    search = TurnSearch(dragon, circle, stray, work)
-    try:
-        return search.answer()
-    except Halted as halted:
-        rule = (
-            "must be smaller, or benches fewer or more alike: no turn was decided to be the shortest {then}; "
-            "the {benches} chords are {shortest} to {longest} long"
-        )
-        raise too_much(work, "turning_radius", rule, Quantity(circle.radius, "m"), **chord_values(dragon)) from halted
+    return TurnSearch(dragon, circle, stray, work).answer()
 
 
 class TurnSearch:
@@ -171,8 +164,13 @@ class TurnSearch:
 
     mirrored: whether each turn also stands for the same turn danced backwards; best, shortest: the shortest turn that
         was danced with proof, and its length; longer: boxes excluded by their length; tried: places of locally shortest
-        turns; multipliers: of those turns that are nearly as short as the best one
+        turns; multipliers: of those turns that are nearly as short as the best one; width: of the bracket [m];
+        tightest: least radius of an arc in the boxes [m]; at_once: most boxes of a round, those of the shortest turns
+        first
     """
+
+    width = LENGTH_WIDTH
+    at_once = sys.maxsize
 
     def __init__(
         self,
@@ -184,7 +182,7 @@ class TurnSearch:
         self.dragon, self.circle, self.stray, self.budget = dragon, circle, stray, budget
         self.pitch, self.radius, self.ratio, _, self.margin = circle
         self.growth = circle.growth
-        self.least = least_bend(dragon)
+        self.least = self.tightest = least_bend(dragon)
         self.inner = least_entry(self.growth, self.radius, self.least)
         self.overlap = OverlapSearch(dragon, self.margin, most_benches(dragon, self.radius))
         self.mirrored = self.overlap.equal and self.ratio in (None, 1.0)
@@ -197,6 +195,18 @@ class TurnSearch:
         self.polished = 0
 
     def answer(self) -> ShortestTurn:
+        """The answer. raises: InvalidValue, TooMuchWork"""
+        try:
+            return self._search()
+        except Halted as halted:
+            rule = (
+                "must be smaller, or benches fewer or more alike: no turn was decided to be the shortest {then}; "
+                "the {benches} chords are {shortest} to {longest} long"
+            )
+            values, radius = chord_values(self.dragon), Quantity(self.radius, "m")
+            raise too_much(self.budget, "turning_radius", rule, radius, **values) from halted
+
+    def _search(self) -> ShortestTurn:
         """The answer. raises: InvalidValue, Halted"""
         for start in starts(self.growth, self.inner, self.radius, self.ratio, self.least):
             self.budget.look()
@@ -212,8 +222,9 @@ class TurnSearch:
             boxes = one_of_mirrored(boxes, self.ratio)
         while boxes.lows.size and self.budget.left > 0.0:
             self.budget.look()
-            parts = [self._part(boxes.taken(slice(k, k + TOGETHER))) for k in range(0, boxes.lows.size, TOGETHER)]
-            boxes = joined(parts)
+            now, later = boxes.taken(slice(self.at_once)), boxes.taken(slice(self.at_once, None))
+            parts = [self._part(now.taken(slice(k, k + TOGETHER))) for k in range(0, now.lows.size, TOGETHER)]
+            boxes = joined([*parts, later])
             boxes = boxes.taken(np.argsort(boxes.lows, kind="stable"))
         return self._result(boxes)
 
@@ -264,7 +275,7 @@ class TurnSearch:
         bounds = [known.lower(turns, boxes.centres, boxes.halves) for known in self.multipliers]
         lows = np.maximum.reduce([boxes.lows, lower_lengths(turns, self.least), *bounds])
         boxes = boxes._replace(lows=lows, waits=boxes.waits.copy())
-        target = self.shortest - LENGTH_WIDTH
+        target = self.shortest - self.width
         out = (turns.exit.low > self.radius) | (turns.exit.high < self.inner)
         out |= (turns.radii[0].high < self.least) | (turns.radii[1].high < self.least)
         longer = ~out & (lows >= target)
@@ -289,7 +300,7 @@ class TurnSearch:
             if waits[k] or not small[k] or self.budget.left <= 0.0:
                 waits[k] = max(0, waits[k] - 1)
                 continue
-            box = box_of(self.pitch, turns, k, boxes.centres[:, k], boxes.halves[:, k], self.least)
+            box = box_of(self.pitch, turns, k, boxes.centres[:, k], boxes.halves[:, k], self.tightest)
             if box is None:
                 waits[k] = 1
                 continue
@@ -343,7 +354,7 @@ class TurnSearch:
         """The answer. left: the boxes that were not excluded when the work was spent, none otherwise"""
         assert self.best is not None
         best = self.best
-        lowest = min(float(left.lows.min(initial=math.inf)), best.length - LENGTH_WIDTH)
+        lowest = min(float(left.lows.min(initial=math.inf)), best.length - self.width)
         near = [boxes.taken(np.flatnonzero(boxes.lows <= best.length)) for boxes in (*self.longer, left)]
         middles, sizes = (np.hstack([getattr(boxes, name) for boxes in near]) for name in ("centres", "halves"))
         leaving, spread = middles[0] + self.growth * middles[1], sizes[0] + self.growth * sizes[1]
@@ -355,16 +366,17 @@ class TurnSearch:
         for (at, half), own in zip(spans, (best.entry_radius, best.exit_radius), strict=True):
             low, high = (at - half).min(initial=own), (at + half).max(initial=own)
             brackets.append((max(float(low), self.inner), min(float(high), self.radius)))
-        limit = TurnLimit.CONTACT
+        return ShortestTurn(
+            best, (lowest, best.length), brackets[0], brackets[1], self._limit(best), self.boxes, self.overlaps,
+            self.evaluations,
+        )  # fmt: skip
+
+    def _limit(self, best: Turn) -> TurnLimit:
+        """What keeps the best turn from being shorter."""
         ends = best.entry_radius, best.exit_radius
         is_deepest = min(ends) < self.inner + SAME
         if min(best.radii) < self.least + AT_LIMIT or (is_deepest and self._is_coil_least()):
-            limit = TurnLimit.LEAST_RADIUS
-        elif is_deepest:
-            limit = TurnLimit.CENTRE
-        elif max(ends) > self.radius - AT_LIMIT:
-            limit = TurnLimit.CIRCLE
-        return ShortestTurn(
-            best, (lowest, best.length), brackets[0], brackets[1], limit, self.boxes, self.overlaps,
-            self.evaluations,
-        )  # fmt: skip
+            return TurnLimit.LEAST_RADIUS
+        if is_deepest:
+            return TurnLimit.CENTRE
+        return TurnLimit.CIRCLE if max(ends) > self.radius - AT_LIMIT else TurnLimit.CONTACT

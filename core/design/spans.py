@@ -35,7 +35,7 @@ class Span:
         products = (self.low * other.low, self.low * other.high, self.high * other.low, self.high * other.high)
         return Span(np.minimum.reduce(products), np.maximum.reduce(products))
 
-    def scaled(self, factor: float) -> Span:
+    def scaled(self, factor: float | Floats) -> Span:
         """The intervals times a positive number."""
         return Span(factor * self.low, factor * self.high)
 
@@ -92,7 +92,7 @@ class Known:
     def __truediv__(self, other: Known) -> Known:
         return self * other.inverse()
 
-    def scaled(self, factor: float) -> Known:
+    def scaled(self, factor: float | Floats) -> Known:
         """The quantity times a positive number."""
         return Known(self.value.scaled(factor), tuple(slope.scaled(factor) for slope in self.slopes))
 

@@ -13,6 +13,7 @@ from core.checks import SIZE_MIN
 from core.design.spans import Span, mean_value
 from core.design.turn_boxes import JUST, ROUNDING, Turns, sizes_of
 from core.design.turn_moves import coil_bend
+from core.kernels.constants import PROOF_COLUMNS
 from core.paths.turn import RATIO_MAX, RATIO_MIN
 from core.sampling import bisect
 from core.values import Floats
@@ -29,22 +30,26 @@ MOVES = np.array([4.0, 5.0, 2.0])
 
 class Boxes(NamedTuple):
     """Boxes of (entry radius a [m], v [rad], log ratio): middles and half widths, (3, N); waits: divisions until an
-    overlap is looked for again; lows: lower bounds of the lengths of their turns [m], (N,)."""
+    overlap is looked for again; lows: lower bounds of the lengths of their turns [m], (N,); proofs: what refused larger
+    boxes, (N, PROOF_COLUMNS) of core/kernels/constants.py."""
 
     centres: Floats
     halves: Floats
     waits: NDArray[np.int64]
     lows: Floats
+    proofs: Floats
 
     def taken(self, which: slice | NDArray[np.intp]) -> Boxes:
         """Some of the boxes."""
-        return Boxes(self.centres[:, which], self.halves[:, which], self.waits[which], self.lows[which])
+        centres, halves = self.centres[:, which], self.halves[:, which]
+        return Boxes(centres, halves, self.waits[which], self.lows[which], self.proofs[which])
 
 
 def joined(parts: list[Boxes]) -> Boxes:
     """All boxes of the parts."""
     centres, halves = (np.hstack([getattr(part, name) for part in parts]) for name in ("centres", "halves"))
-    return Boxes(centres, halves, np.hstack([p.waits for p in parts]), np.hstack([p.lows for p in parts]))
+    waits, lows, proofs = (np.concatenate([getattr(p, name) for p in parts]) for name in ("waits", "lows", "proofs"))
+    return Boxes(centres, halves, waits, lows, proofs)
 
 
 def least_entry(growth: float, radius: float, least: float) -> float:
@@ -70,7 +75,8 @@ def first_boxes(growth: float, inner: float, radius: float, ratio: float | None)
     axes = [low + step * (2.0 * np.arange(n) + 1.0) for (low, _), step, n in zip(ends, half, counts, strict=True)]
     centres = np.array(np.meshgrid(*axes, indexing="ij")).reshape(3, -1)
     count = centres.shape[1]
-    return Boxes(centres, np.repeat(half[:, None], count, axis=1), np.zeros(count, dtype=np.int64), np.zeros(count))
+    waits, proofs = np.zeros(count, dtype=np.int64), np.zeros((count, PROOF_COLUMNS))
+    return Boxes(centres, np.repeat(half[:, None], count, axis=1), waits, np.zeros(count), proofs)
 
 
 def one_of_mirrored(boxes: Boxes, ratio: float | None) -> Boxes:
@@ -103,13 +109,18 @@ def lower_lengths(turns: Turns, least: float = 0.0) -> Floats:
 def divided(boxes: Boxes, slope: Floats) -> Boxes:
     """Boxes divided in two across the direction in which their turns differ most. slope: |dL / dp|, (3, N)"""
     known = np.where(np.isfinite(slope), np.minimum(slope, STEEPEST), STEEPEST)
-    along = (np.maximum(known, MOVES[:, None]) * boxes.halves).argmax(axis=0)
+    return halved(boxes, np.maximum(known, MOVES[:, None]))
+
+
+def halved(boxes: Boxes, moves: Floats) -> Boxes:
+    """Boxes divided in two across the direction in which they are largest. moves: by each parameter, (3, N)"""
+    along = (moves * boxes.halves).argmax(axis=0)
     index, halves, step = np.arange(along.size), boxes.halves.copy(), np.zeros_like(boxes.centres)
     halves[along, index] *= 0.5
     step[along, index] = halves[along, index]
     twice = np.tile(index, 2)
     centres = np.hstack([boxes.centres - step, boxes.centres + step])
-    return Boxes(centres, halves[:, twice], boxes.waits[twice], boxes.lows[twice])
+    return Boxes(centres, halves[:, twice], boxes.waits[twice], boxes.lows[twice], boxes.proofs[twice])
 
 
 # Let the multipliers k1, k2, ka, kb be 0 or more. A turn that can be danced has r1, r2 >= least and a, b <= R, so
@@ -131,7 +142,7 @@ class Multipliers:
         k1, k2, ka, kb = self.weights
         at = turns.middle[4] - k1 * (turns.middle[0] - self.least) - k2 * (turns.middle[1] - self.least)
         at = at - ka * (self.most - centres[0]) - kb * (self.most - turns.middle[5])
-        slopes = [by_l - by_1.scaled(k1) - by_2.scaled(k2) for by_1, by_2, by_l in zip(*turns.slopes, strict=True)]
+        slopes = [by_l - by_1.scaled(k1) - by_2.scaled(k2) for by_1, by_2, by_l in zip(*turns.slopes[:3], strict=True)]
         for k, more in ((0, ka + kb), (1, kb * self.growth)):
             slopes[k] = Span(slopes[k].low + more, slopes[k].high + more)
         low = mean_value(at, tuple(slopes), halves).low - ROUNDING * (1.0 + self.weights.sum())

@@ -49,7 +49,7 @@ class Turns:
 
     middle: (6, N) r1, r2 [m], alpha1, alpha2 [rad], length, exit radius [m] at the middles
     radii [m], angles [rad], arcs [m]: of the first and second arc, their lengths; length, exit [m]
-    slopes: derivatives of r1, r2 and the length by the three parameters
+    slopes: derivatives of r1, r2, the length, alpha1 and alpha2 by the three parameters
     whole: True where neither angle of a turn of the box leaves [0, 2 pi)
     """
 
@@ -61,6 +61,27 @@ class Turns:
     exit: Span
     slopes: tuple[tuple[Span, ...], ...]
     whole: NDArray[np.bool_]
+
+
+def turns_of(turns: Turns, which: NDArray[np.intp]) -> Turns:
+    """What is known about some of the boxes."""
+
+    def taken(span: Span) -> Span:
+        return Span(span.low[which], span.high[which])
+
+    def both(pair: tuple[Span, Span]) -> tuple[Span, Span]:
+        return taken(pair[0]), taken(pair[1])
+
+    return Turns(
+        turns.middle[:, which],
+        both(turns.radii),
+        both(turns.angles),
+        both(turns.arcs),
+        taken(turns.length),
+        taken(turns.exit),
+        tuple(tuple(map(taken, slopes)) for slopes in turns.slopes),
+        turns.whole[which],
+    )
 
 
 def sizes_of(growth: float, entry: Floats, turned: Floats, log_ratio: Floats) -> Floats:
@@ -123,7 +144,7 @@ def turns_in(growth: float, centres: Floats, halves: Floats) -> Turns:
         (_on(middle[0] * middle[2], arcs[0], halves).value, _on(middle[1] * middle[3], arcs[1], halves).value),
         _on(middle[4], total, halves).value,
         b.value,
-        (r1.slopes, r2.slopes, total.slopes),
+        (r1.slopes, r2.slopes, total.slopes, angles[0].slopes, angles[1].slopes),
         np.asarray((lows >= 0.0).all(axis=0) & (highs < 2.0 * math.pi).all(axis=0)),
     )
 
@@ -149,12 +170,18 @@ def _ends(growth: float, centres: Floats, halves: Floats) -> _Ends:
     return _Ends(logarithm.exponential(), b, (-t * over, over), m, (a + b * cosine, b * sine), squared)
 
 
-@np.errstate(over="ignore", invalid="ignore")
 def too_tight(growth: float, centres: Floats, halves: Floats, least: float) -> NDArray[np.bool_]:
     """True where an arc of all turns of a box is tighter than `least` [m], (N,)."""
+    second, first = tighter(growth, centres, halves, least)
+    return np.asarray(first | second)
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def tighter(growth: float, centres: Floats, halves: Floats, least: float | Floats) -> list[NDArray[np.bool_]]:
+    """True where the second arc of all turns of a box is tighter than `least` [m], and where the first one is, (N,)."""
     ratio, b, (nx, ny), (mx, my), (dx, dy), squared = _ends(growth, centres, halves)
     first, second = (dx * nx + dy * ny).scaled(2.0 * least), (dx * mx + dy * my).scaled(2.0 * least)
-    curved = -((nx * mx + ny * my).plus(-1.0).scaled(2.0 * least**2))
+    curved = -(nx * mx + ny * my).plus(-1.0).scaled(2.0 * least**2)
     excess = ratio * (curved - first) - second - squared, curved - second - ratio * (first + squared)
     size = centres[0] + halves[0] + b.value.furthest + least
     spare = ROUNDING * (1.0 + ratio.value.high) * (1.0 + size**2)
@@ -162,10 +189,10 @@ def too_tight(growth: float, centres: Floats, halves: Floats, least: float) -> N
         np.fmax(mean_value(at, known.slopes, halves).low, known.value.low)
         for at, known in zip(_excesses(growth, centres, least), excess, strict=True)
     ]
-    return np.asarray((lows[0] > spare) | (lows[1] > spare))
+    return [np.asarray(low > spare) for low in lows]
 
 
-def _excesses(growth: float, points: Floats, least: float) -> tuple[Floats, Floats]:
+def _excesses(growth: float, points: Floats, least: float | Floats) -> tuple[Floats, Floats]:
     """Left sides less right sides of the conditions for r2 and r1 at points (3, N), positive where too tight [m^2]."""
     entry, turned, log_ratio = points
     ratio, leaving = np.exp(log_ratio), entry + growth * turned

@@ -38,6 +38,7 @@ speed        the highest speed
 excess       first time beyond a speed limit              wobble         contacts when people wobble
 fills        rectangles in the bytes of a picture
 follower     a bench on bends of any radius: no jump, no step back
+turn_refusal  boxes of turns that cannot be danced
 """
 
 from core.kernels.band_march import BandMarch
@@ -92,4 +93,5 @@ from core.kernels.spiral import (
     spiral_trajectory,
 )
 from core.kernels.stretches import steepest_curvature
+from core.kernels.turn_refusal import TurnBox, refuse_turns
 from core.kernels.wobble import Wobbler

@@ -101,6 +101,14 @@ class Follower:
     def __init__(self, pieces: Floats, chord: float, least: float) -> None: ...
     def follow(self, start: float, stop: float, beyond: float, most_work: float) -> Follows: ...
 
+# -- boxes of turns --
+
+class TurnBox:
+    work: float
+    def __init__(self, growth: float, least: float) -> None: ...
+
+def refuse_turns(boxes: Floats, chords: Floats, benches: Floats, hints: Floats, box: TurnBox) -> None: ...
+
 # -- on either --
 
 class Curve:

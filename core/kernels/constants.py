@@ -225,3 +225,16 @@ SHIFT_COLUMNS = 4
 
 # Upper bound of curvature times radius on any spiral: 2 / 1.5^(3/2) = 1.08866 [1].
 SPIRAL_CURVATURE_MOST = 1.0887
+
+# Columns of a box of turns, see turn_refusal.py; each stands for the first arc, and beside it for the second: the
+# nominal turn's radius [m] and angle [rad]; the most by which 1 / r differs from it [1/m]; least and greatest length
+# [m]; the most by which it differs [m]; the nominal radius at which the coil begins, and the most by which it is less
+# or more [m]; the greatest 1 / r [1/m]; the most by which radius [m] and angle [rad] differ.
+TURN_RADIUS, TURN_ANGLE, TURN_BEND, TURN_LOW, TURN_HIGH, TURN_LONGER = range(0, 12, 2)
+TURN_COIL, TURN_COIL_LESS, TURN_SHARPEST, TURN_WIDER, TURN_FURTHER = range(12, 22, 2)
+TURN_BOX = 22
+
+# Columns of what is remembered of a proof that a box of turns holds none to dance, see turn_refusal.py: its kind, the
+# number of the chord, or -1 or 1 for the end of the dragon; place and other place of a handle [m]; calls until another
+# one is looked for.
+PROOF_KIND, PROOF_OF, PROOF_AT, PROOF_OVER, PROOF_WAIT, PROOF_COLUMNS = range(6)

@@ -81,7 +81,7 @@ def test_a_number_is_no_budget(name):
 
 
 # The other calls first: these take more than a second.
-SLOW = ("propose", "shortest_turn", "turn_length_bounds")
+SLOW = ("followed_turn", "propose", "shortest_turn", "turn_length_bounds")
 
 
 @pytest.mark.parametrize("name", further(sorted(QUESTIONS, key=SLOW.__contains__), len(QUESTIONS) - len(SLOW)))

@@ -104,6 +104,7 @@ QUERIES = {
     "turn-time?speed_limit=0": "speed_limit 0.001",
     "shortest-turn?ratio=0": "ratio 0.01",
     "shortest-turn?exit_opposite=true&any_ratio=true": "any_ratio exit_opposite",
+    "shortest-turn?any_bend=true&any_ratio=true": "any_bend any_ratio",
     "shortest-turn?margin=3": "margin",
     "shortest-turn?turning_diameter=7.9&exit_opposite=true": "turning_diameter 2.86",
     "shortest-turn?benches=2001": "benches 2000",

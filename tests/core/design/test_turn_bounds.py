@@ -31,7 +31,7 @@ def test_boxes_that_are_divided_or_joined_cover_the_same_turns():
     rng = np.random.default_rng(4)
     centres, halves = boxes(rng, 0.1)
     count = centres.shape[1]
-    whole = Boxes(centres, halves, np.arange(count), rng.uniform(0.0, 9.0, count))
+    whole = Boxes(centres, halves, np.arange(count), rng.uniform(0.0, 9.0, count), rng.uniform(0.0, 1.0, (count, 5)))
     slope = rng.uniform(0.0, 9.0, (3, count))
     slope[0, 0] = np.nan
     parts = divided(whole, slope)

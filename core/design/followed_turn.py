@@ -1,0 +1,165 @@
+"""The shortest turn of all that benches are proven to follow, however tight its arcs are.
+
+It is the search of core/design/shortest_turn.py, with the exact condition (core/paths/following.py) in place of a least
+radius. Above: a turn that every bench is proven to follow, danced without a contact with proof. Below: a box of turns
+is excluded
+    - by its length, or an end outside the circle;
+    - if an arc of half a circle is too tight in all its turns, or in each a bench cannot follow or the path meets
+      itself (core/design/turn_refusal.py);
+    - if one pose is exhibited that overlaps in all its turns (core/design/turn_overlap.py).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.checks import SIZE_MIN
+from core.contact.answer import Outcome
+from core.design.deepest_turn import TurnLimit, contact_in
+from core.design.shortest_turn import BOX_WORK, DANCES, ShortestTurn, TurnSearch
+from core.design.turn_bounds import Boxes, halved, lower_lengths
+from core.design.turn_boxes import Turns, turns_in, turns_of
+from core.design.turn_circle import CheckedCircle, checked_circle
+from core.design.turn_refusal import TurnRefusal
+from core.dragon import Dragon, Stray, checked_stray
+from core.kernels import Budget
+from core.kernels.constants import PROOF_KIND
+from core.paths.following import follows
+from core.paths.turn import Turn
+from core.questions import question_about
+from core.values import Floats
+
+# Width of the bracket of the length [m].
+FOLLOWED_WIDTH = 1e-3
+# Largest work [1]: a minute. The contest's turn takes 4e8.
+FOLLOWED_WORK = 1.5e9
+# Most boxes of a round, of which those of the shortest turns are looked at first.
+ROUND = 4096
+# Work of a place of the proofs, by the time that it takes [1].
+PLACE_WORK = 0.5
+# Moves of which nothing is known count as this [m/m].
+MOVES_MOST = 1e3
+# Half widths of boxes whose middle is danced [m], [rad], [1]; steps by which a turn is made shorter: first, last, and
+# the tries without one after which they become smaller.
+DANCED = np.array([2e-3, 2e-3, 2e-3])
+STEP, STEP_LEAST, TRIES = 0.02, 1e-8, 12
+
+
+@question_about("dragon", Dragon)
+def followed_turn(
+    dragon: Dragon,
+    pitch: float,
+    turning_radius: float = 4.5,
+    ratio: float = 2.0,
+    *,
+    start_turns: float = 16.0,
+    margin: float = 0.0,
+    stray: float | Stray = 0.0,
+    budget: Budget | None = None,
+) -> ShortestTurn:
+    """The shortest turn of two arcs inside the circle of all that every bench can follow, with a proven bracket.
+
+    As core/design/shortest_turn.py: shortest_turn(), of one ratio, whose arcs may be tighter than half a chord, as long
+    as each bench is proven to follow forwards (core/paths/following.py). limited_by is FOLLOWING.
+    The bracket is FOLLOWED_WIDTH wide; wider if the budget is spent: the default is FOLLOWED_WORK
+    raises: as shortest_turn()
+
+    >>> from core import Budget
+    >>> answer = followed_turn(Dragon(), 1.7, budget=Budget(1e7))
+    >>> round(answer.turn.length, 4), answer.limited_by.value
+    (11.7992, 'following')
+    """
+    circle = checked_circle(pitch, turning_radius, ratio, start_turns, margin)
+    work = (budget or Budget()).within(FOLLOWED_WORK)
+    return FollowedSearch(dragon, circle, checked_stray(stray, dragon), work).answer()
+
+
+class FollowedSearch(TurnSearch):
+    """Branch and bound over boxes of turns that may be tighter than half a chord."""
+
+    width = FOLLOWED_WIDTH
+    at_once = ROUND
+
+    def __init__(self, dragon: Dragon, circle: CheckedCircle, stray: float, budget: Budget) -> None:
+        super().__init__(dragon, circle, stray, budget)
+        self.refusal = TurnRefusal(dragon, self.growth)
+        self.mirrored = False
+        self.tightest = SIZE_MIN
+        self.random = np.random.default_rng(0)
+        self.entry_least, self.exit_least = self.refusal.least_ends(self.radius)
+        self.inner = min(self.entry_least, self.exit_least)
+
+    def _improve(self, place: Floats) -> bool:
+        """Only before boxes are looked at: locally shortest turns are those by closed forms of a least radius."""
+        return super()._improve(place) if not self.boxes else True
+
+    def _part(self, boxes: Boxes) -> Boxes:
+        if not self.boxes and self.best is not None:
+            best = self.best
+            turned = (best.exit_radius - best.entry_radius) / self.growth
+            self._shorten(np.array([best.entry_radius, turned, math.log(best.ratio)]))
+        self.budget.spend(BOX_WORK * boxes.lows.size)
+        count = boxes.lows.size
+        turns = turns_in(self.growth, boxes.centres, boxes.halves)
+        lows = np.maximum(boxes.lows, lower_lengths(turns))
+        boxes = boxes._replace(lows=lows, waits=boxes.waits.copy())
+        out = (turns.exit.low > self.radius) | (turns.exit.high < self.exit_least)
+        out |= boxes.centres[0] + boxes.halves[0] < self.entry_least
+        longer = ~out & (lows >= self.shortest - self.width)
+        self.longer.append(boxes.taken(np.flatnonzero(longer)))
+        out |= longer | self.refusal.hairpins(boxes.centres, boxes.halves)
+        left = np.flatnonzero(~out)
+        boxes, turns = boxes.taken(left), turns_of(turns, left)
+        refused = self._refused(turns, boxes)
+        hopeless = np.flatnonzero(~refused & (boxes.proofs[:, PROOF_KIND] == 0.0))
+        refused[self._overlapping(turns, boxes, hopeless)] = True
+        left = np.flatnonzero(~refused)
+        self.boxes += count - left.size
+        return halved(boxes.taken(left), self._moves(turns)[:, left])
+
+    def _moves(self, turns: Turns) -> Floats:
+        """About how far points of the turns move by each parameter, (3, N) [m/m], [m/rad], [m/1]."""
+        chord = float(self.refusal.chords[0])
+        moves = np.array([slope.furthest for slope in turns.slopes[2]])
+        for k in range(2):
+            bent, turned = (np.array([slope.furthest for slope in turns.slopes[at]]) for at in (k, 3 + k))
+            moves += 2.0 * bent + (turns.middle[k] + chord) * turned
+        return np.asarray(np.nan_to_num(moves, nan=MOVES_MOST, posinf=MOVES_MOST))
+
+    def _refused(self, turns: Turns, boxes: Boxes) -> NDArray[np.bool_]:
+        """The boxes none of whose turns can be danced. It dances turns of small other ones, and sets all proofs."""
+        before = self.refusal.box.work
+        refused = self.refusal.refused(turns, boxes.centres, boxes.halves, boxes.proofs, self.shortest)
+        self.budget.spend(PLACE_WORK * (self.refusal.box.work - before))
+        shorter = turns.middle[4] < self.shortest - self.width
+        small = ~refused & shorter & (boxes.halves <= DANCED[:, None]).all(axis=0)
+        for k in np.flatnonzero(small)[:DANCES].tolist():
+            if self._dance(boxes.centres[:, k]):
+                self._shorten(boxes.centres[:, k])
+        return refused
+
+    def _shorten(self, point: Floats) -> None:
+        """Make a danced turn shorter by random steps, as long as they can be danced."""
+        free = np.array([1.0, 1.0, 1.0 if self.ratio is None else 0.0])
+        step, failed = STEP, 0
+        while step > STEP_LEAST and self.budget.left > 0.0:
+            self.budget.look()
+            near = point + step * free * self.random.standard_normal(3)
+            near[0] = min(near[0], self.radius)
+            near[1] = min(near[1], (self.radius - near[0]) / self.growth)
+            if self._dance(near):
+                point, step, failed = near, 1.5 * step, 0
+            elif (failed := failed + 1) == TRIES:
+                step, failed = 0.5 * step, 0
+
+    def _allows(self, danced: Turn) -> bool:
+        self.evaluations += 1
+        if not follows(self.dragon, danced):
+            return False
+        return contact_in(self.budget, self.dragon, danced, self.margin, self.stray).outcome is Outcome.CLEAR
+
+    def _limit(self, best: Turn) -> TurnLimit:
+        return TurnLimit.FOLLOWING
