@@ -69,12 +69,11 @@ class Graded:
 def graded_number(name: str, value: float, half_unit: float) -> Graded:
     """The grade of one of UNITS. value: in its unit; half_unit: half of its last digit
 
-    A number is right if it is the right one to the decimals that the contest asks for, and rounded if it is the right
-    one to fewer. One that is off by less than its last digit was rounded the other way, and nothing else follows. A
-    limit is rounded to its safe side: the least pitch and the shortest turn up, the highest speed down; on the other
-    side benches touch, or somebody is too fast. It is kept to half of the last decimal that the contest asks for.
-    Whatever else is wrong with a number, a limit that it breaks comes first. A number of too few digits to be right is
-    incomplete.
+    A number is right if it is the right one to its own digits. One that is off by less than its last digit was rounded
+    the other way, and nothing else follows from that. A limit is rounded to its safe side: the least pitch and the
+    shortest turn up, the highest speed down; on the other side benches touch, or somebody is too fast. It is kept to
+    half of the last decimal that the contest asks for. Whatever else is wrong with a number, a limit that it breaks
+    comes first. A number of too few digits to be right is incomplete.
     """
     half, excess = max(half_unit, HALF_UNIT_LEAST), beyond(name, value)
     digits = math.floor(math.log10(min(value, right_answer(name)))) + 1 + _decimals_of(half)
@@ -99,7 +98,7 @@ def _graded(name: str, value: float, half_unit: float) -> Graded:
     if is_nearest or (is_near and is_safe):
         is_whole = decimals >= DECIMALS_OF_CONTEST
         notes = [] if is_nearest else [note(f"{name}_rounded_safely", **words)]
-        return Graded(Rating.RIGHT if is_whole else Rating.ROUNDED, notes, [], headline="" if is_whole else "to_digits")
+        return Graded(Rating.RIGHT, notes, [], headline="" if is_whole else "to_digits")
     if is_near and name not in SAFE_SIDE:
         return Graded(Rating.ROUNDED, [note("rounded_otherwise", **words)], [], headline="not_to_the_nearest")
     if name == "turn_length" and value < right:

@@ -177,9 +177,8 @@ class TypedAnswer(Answer):
     """One number that was typed in.
 
     answer: what it answers: collision_time, pitch, speed or turn_length
-    verdict: right, to the six decimals that the contest asks for; rounded, if it is right to fewer, or off by less
-        than its last digit; incomplete, if it has too few digits; infeasible, if it was rounded beyond a limit; or
-        wrong
+    verdict: it is right, as far as its digits go; rounded, if it is off by less than its last digit; incomplete, if it
+        has too few digits; infeasible, if it was rounded beyond a limit; or wrong
     breaks: the limit that the number breaks, and by how much, in words; null if none
     found: the given number, in `unit`
     expected: the right number, in `unit`

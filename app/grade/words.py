@@ -129,7 +129,7 @@ WORDS: Phrases = ERRORS | PAPER | {f"name_{code}": name for code, name in NAMES.
     "unreadable": "unreadable",
     "right_near": "right to {decimals} decimals only, written with {written}",
     "given": "The {count} cells that have a number are {how}.",
-    "to_digits": "rounded: right to its {digits} digits; the contest asks for six decimals",
+    "to_digits": "right to its {digits} digits; the contest asks for six decimals",
     "not_to_the_nearest": "rounded, but not to the nearest",
     "not_best_pitch": "possible, but not the smallest",
     "not_best_speed": "possible, but not the highest",
