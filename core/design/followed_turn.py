@@ -1,8 +1,8 @@
 """The shortest turn of all that benches are proven to follow, however tight its arcs are.
 
 It is the search of core/design/shortest_turn.py, with the exact condition (core/paths/following.py) in place of a least
-radius. Above: a turn that every bench is proven to follow, danced without a contact with proof. Below: a box of turns
-is excluded
+radius. Above: a turn that every bench is proven to follow, danced without a contact with proof; turns of a grid that no
+proof refuses are tried first. Below: a box of turns is excluded
     - by its length, or an end outside the circle;
     - if an arc of half a circle is too tight in all its turns, or in each a bench cannot follow or the path meets
       itself (core/design/turn_refusal.py);
@@ -21,12 +21,12 @@ from core.contact.answer import Outcome
 from core.design.deepest_turn import TurnLimit, contact_in
 from core.design.shortest_turn import BOX_WORK, DANCES, ShortestTurn, TurnSearch
 from core.design.turn_bounds import Boxes, halved, lower_lengths
-from core.design.turn_boxes import Turns, turns_in, turns_of
+from core.design.turn_boxes import Turns, can_be_drawn, sizes_of, turns_in, turns_of
 from core.design.turn_circle import CheckedCircle, checked_circle
 from core.design.turn_refusal import TurnRefusal
 from core.dragon import Dragon, Stray, checked_stray
 from core.kernels import Budget
-from core.kernels.constants import PROOF_KIND
+from core.kernels.constants import PROOF_COLUMNS, PROOF_KIND
 from core.paths.following import follows
 from core.paths.turn import Turn
 from core.questions import question_about
@@ -35,7 +35,7 @@ from core.values import Floats
 # Width of the bracket of the length [m].
 FOLLOWED_WIDTH = 1e-3
 # Largest work [1]: a minute. The contest's turn takes 4e8.
-FOLLOWED_WORK = 1.5e9
+FOLLOWED_WORK = 6e8
 # Most boxes of a round, of which those of the shortest turns are looked at first.
 ROUND = 4096
 # Work of a place of the proofs, by the time that it takes [1].
@@ -44,6 +44,8 @@ PLACE_WORK = 0.5
 MOVES_MOST = 1e3
 # Half widths of boxes whose middle is danced [m], [rad], [1]; steps by which a turn is made shorter: first, last, and
 # the tries without one after which they become smaller.
+# Steps of the grid of turns that are danced first [m], [rad], and most of them.
+SAMPLED, SAMPLES = (0.05, 0.05), 60
 DANCED = np.array([2e-3, 2e-3, 2e-3])
 STEP, STEP_LEAST, TRIES = 0.02, 1e-8, 12
 
@@ -97,10 +99,8 @@ class FollowedSearch(TurnSearch):
         return super()._improve(place) if not self.boxes else True
 
     def _part(self, boxes: Boxes) -> Boxes:
-        if not self.boxes and self.best is not None:
-            best = self.best
-            turned = (best.exit_radius - best.entry_radius) / self.growth
-            self._shorten(np.array([best.entry_radius, turned, math.log(best.ratio)]))
+        if not self.boxes:
+            self._sample()
         self.budget.spend(BOX_WORK * boxes.lows.size)
         count = boxes.lows.size
         turns = turns_in(self.growth, boxes.centres, boxes.halves)
@@ -113,12 +113,40 @@ class FollowedSearch(TurnSearch):
         out |= longer | self.refusal.hairpins(boxes.centres, boxes.halves)
         left = np.flatnonzero(~out)
         boxes, turns = boxes.taken(left), turns_of(turns, left)
-        refused = self._refused(turns, boxes)
+        refused = self._refused(turns, boxes.centres, boxes.halves, boxes.proofs)
+        self._dance_some(turns, boxes, ~refused)
         hopeless = np.flatnonzero(~refused & (boxes.proofs[:, PROOF_KIND] == 0.0))
         refused[self._overlapping(turns, boxes, hopeless)] = True
         left = np.flatnonzero(~refused)
         self.boxes += count - left.size
         return halved(boxes.taken(left), self._moves(turns)[:, left])
+
+    def _sample(self) -> None:
+        """Dance the shortest turns of a grid that no proof refuses, and make them shorter."""
+        assert self.best is not None
+        self._shorten(self._place(self.best))
+        entries = np.arange(self.entry_least, self.radius, SAMPLED[0])
+        sweep = (self.radius - self.inner) / self.growth
+        grid = np.meshgrid(entries, np.arange(-sweep, sweep, SAMPLED[1]), [math.log(self.best.ratio)], indexing="ij")
+        points = np.array(grid).reshape(3, -1)
+        sizes = sizes_of(self.growth, *points)
+        exits = (self.exit_least <= sizes[5]) & (sizes[5] <= self.radius)
+        points = points[:, exits & can_be_drawn(sizes) & (sizes[4] < self.shortest - self.width)]
+        self.budget.spend(BOX_WORK * points.shape[1])
+        alone, proofs = np.zeros_like(points), np.zeros((points.shape[1], PROOF_COLUMNS))
+        refused = self.refusal.hairpins(points, alone)
+        left = np.flatnonzero(~refused)
+        points = points[:, left]
+        refused = self._refused(turns_in(self.growth, points, alone[:, left]), points, alone[:, left], proofs[left])
+        points = points[:, ~refused]
+        for k in sizes_of(self.growth, *points)[4].argsort()[:SAMPLES].tolist():
+            if self._dance(points[:, k]):
+                self._shorten(points[:, k])
+
+    def _place(self, turn: Turn) -> Floats:
+        """The parameters of a turn, (3,)."""
+        turned = (turn.exit_radius - turn.entry_radius) / self.growth
+        return np.array([turn.entry_radius, turned, math.log(turn.ratio)])
 
     def _moves(self, turns: Turns) -> Floats:
         """About how far points of the turns move by each parameter, (3, N) [m/m], [m/rad], [m/1]."""
@@ -129,17 +157,20 @@ class FollowedSearch(TurnSearch):
             moves += 2.0 * bent + (turns.middle[k] + chord) * turned
         return np.asarray(np.nan_to_num(moves, nan=MOVES_MOST, posinf=MOVES_MOST))
 
-    def _refused(self, turns: Turns, boxes: Boxes) -> NDArray[np.bool_]:
-        """The boxes none of whose turns can be danced. It dances turns of small other ones, and sets all proofs."""
+    def _refused(self, turns: Turns, centres: Floats, halves: Floats, proofs: Floats) -> NDArray[np.bool_]:
+        """The boxes none of whose turns can be danced. It sets their proofs."""
         before = self.refusal.box.work
-        refused = self.refusal.refused(turns, boxes.centres, boxes.halves, boxes.proofs, self.shortest)
+        refused = self.refusal.refused(turns, centres, halves, proofs, self.shortest)
         self.budget.spend(PLACE_WORK * (self.refusal.box.work - before))
+        return refused
+
+    def _dance_some(self, turns: Turns, boxes: Boxes, left: NDArray[np.bool_]) -> None:
+        """Dance turns of small boxes, and make them shorter."""
         shorter = turns.middle[4] < self.shortest - self.width
-        small = ~refused & shorter & (boxes.halves <= DANCED[:, None]).all(axis=0)
+        small = left & shorter & (boxes.halves <= DANCED[:, None]).all(axis=0)
         for k in np.flatnonzero(small)[:DANCES].tolist():
             if self._dance(boxes.centres[:, k]):
                 self._shorten(boxes.centres[:, k])
-        return refused
 
     def _shorten(self, point: Floats) -> None:
         """Make a danced turn shorter by random steps, as long as they can be danced."""
