@@ -62,11 +62,12 @@ def followed_turn(
     stray: float | Stray = 0.0,
     budget: Budget | None = None,
 ) -> ShortestTurn:
-    """The shortest turn of two arcs inside the circle of all that every bench can follow, with a proven bracket.
+    """The shortest turn of two arcs inside the circle that every bench can follow without a contact, with its bracket.
 
     As core/design/shortest_turn.py: shortest_turn(), of one ratio, whose arcs may be tighter than half a chord, as long
     as each bench is proven to follow forwards (core/paths/following.py). limited_by is FOLLOWING.
-    The bracket is FOLLOWED_WIDTH wide; wider if the budget is spent: the default is FOLLOWED_WORK
+    The bracket is proven, and FOLLOWED_WIDTH = 1 mm wide; wider if the budget is spent before, and with little of it
+    the turn may be longer than the shortest: the default is FOLLOWED_WORK = 6e8, about a minute
     raises: as shortest_turn()
 
     >>> from core import Budget

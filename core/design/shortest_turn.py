@@ -91,13 +91,14 @@ TOGETHER = 4096
 class ShortestTurn(Readable):
     """The shortest two-arc turn that the dragon can dance inside the circle, whatever its entry and exit.
 
+    Of one ratio or any, and of bends of half a chord over 0.999 or more (shortest_turn()) or any (followed_turn()).
     turn: the turn, danced with proof
     length_bracket: proven: no turn of two arcs inside the circle is shorter; the length of this one [m]
     entry_bracket: entry radii between which those of every turn as short as that lie [m]
     exit_bracket: exit radii, as entry_bracket [m]
-    limited_by: LEAST_RADIUS, CENTRE, CIRCLE or CONTACT, the first that applies to it: an arc, or the coil at an end, of
-        the least radius; an end at the deepest radius that is tried; an end on the circle; else benches within the
-        margin in turns beside it
+    limited_by: FOLLOWING (followed_turn() alone), or LEAST_RADIUS, CENTRE, CIRCLE or CONTACT, the first that applies to
+        it: an arc, or the coil at an end, of the least radius; an end at the deepest radius that is tried; an end on
+        the circle; else benches within the margin in turns beside it
     boxes: number of excluded boxes
     overlaps: number of those that an exhibited overlap excludes
     evaluations: number of turns danced
