@@ -13,14 +13,26 @@ const LONGEST = 20_000_001;
 const [END, ENTRY] = [0x06054b50, 0x02014b50];
 export const TYPES = { xlsx: "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet", csv: "text/csv" };
 
-/** The team of a file: the folder in which it lies, or its name without an ending; empty for one that lies alone. */
-function teamOf(path) {
-  const folders = path.split("/");
-  return folders.length > 2 ? folders.at(-2) : folders.length === 2 ? folders[1].replace(/\.\w+$/, "") : "";
+const foldersOf = (path) => path.split("/").slice(0, -1);
+
+/** The files, each with its team: the first folder that not all of them share, else that in which all lie, or the name without an ending; empty for a file that lies alone. found: {file, path} */
+function withTeams(found) {
+  const sharedOf = (/** @type {string[][]} */ [first = [], ...others]) => {
+    const differs = first.findIndex((name, k) => others.some((one) => one[k] !== name));
+    return differs < 0 ? first.length : differs;
+  };
+  const every = found.map(({ path }) => foldersOf(path)).filter(({ length }) => length);
+  // A file beside the folders of the teams is no team's.
+  const deep = every.filter(({ length }) => length > 1);
+  const root = deep.length && sharedOf(every) ? sharedOf(deep) : sharedOf(every);
+  return found.map(({ file, path }) => {
+    const folders = foldersOf(path);
+    const own = folders[root] ?? (root > 1 ? folders[root - 1] : undefined);
+    return { file, team: own ?? (folders.length ? file.name.replace(/\.\w+$/, "") : "") };
+  });
 }
 
 const isHandedIn = (path) => HANDED_IN.test(path) && !path.split("/").some((part) => /^(\.|~\$|__MACOSX)/.test(part));
-const entryOf = (file, path) => ({ file, team: teamOf(path) });
 
 /** The bytes of a stream, at most so many. */
 async function bytesOf(stream, most) {
@@ -35,7 +47,7 @@ async function bytesOf(stream, most) {
   return new Blob(parts);
 }
 
-/** The files in a ZIP archive: {file, team}. */
+/** The files in a ZIP archive: {file, path}. */
 async function unzipped(archive) {
   const view = new DataView(await archive.arrayBuffer());
   let end = view.byteLength - 22;
@@ -52,20 +64,20 @@ async function unzipped(archive) {
     const begin = local + 30 + view.getUint16(local + 26, true) + view.getUint16(local + 28, true);
     const data = archive.slice(begin, begin + packed);
     const content = method === 8 ? await bytesOf(data.stream().pipeThrough(new DecompressionStream("deflate-raw")), LONGEST) : data;
-    found.push(entryOf(new File([content], path.split("/").at(-1)), `${archive.name}/${path}`));
+    found.push({ file: new File([content], path.split("/").at(-1)), path: `${archive.name}/${path}` });
   }
   return found;
 }
 
 /** All files of what was chosen or dropped, each with its team: folders and archives are opened. */
 export async function handedIn(files) {
-  const found = [];
+  const [found, chosen] = [[], []];
   for (const file of files) {
     const path = file.webkitRelativePath || file.name;
-    if (/\.zip$/i.test(file.name)) found.push(...(await unzipped(file)));
-    else if (!file.webkitRelativePath || isHandedIn(path)) found.push(entryOf(file, path));
+    if (/\.zip$/i.test(file.name)) found.push(...withTeams(await unzipped(file)));
+    else if (!file.webkitRelativePath || isHandedIn(path)) chosen.push({ file, path });
   }
-  return found;
+  return [...found, ...withTeams(chosen)];
 }
 
 /** The files that were dropped, those of folders with their paths. */
@@ -115,19 +127,18 @@ export class ClassTable {
     this.show = show;
   }
 
-  /** Show the files; rows: as rowOf() gives them */
-  async fill(rows) {
+  /** Show the files with the points of a rubric; one that is refused changes nothing. rows: as rowOf() gives them */
+  async fill(rows, rubric = this.#rubric) {
+    const isNew = rows !== this.#rows;
     this.#rows = rows;
     try {
-      this.table = await this.service.ask("class", "class-table", { body: this.#body() });
+      this.table = await this.service.ask("class", "class-table", { body: { files: rows, rubric } });
+      this.#rubric = rubric;
       this.#draw();
     } catch (error) {
+      if (isNew) this.box.replaceChildren();
       announceRefusal(error);
     }
-  }
-
-  #body(files = this.#rows) {
-    return { files, rubric: this.#rubric };
   }
 
   /** The rows in the order in which they are shown, each with its place in the class. */
@@ -147,8 +158,9 @@ export class ClassTable {
     const points = make("ol", { className: "teams" }, ...teams.map(([team, value]) => make("li", { textContent: say("{team}: {points} points", { team, points: value }) })));
     const chosen = make("input", { type: "file", accept: ".csv", hidden: true });
     chosen.addEventListener("change", async () => {
-      this.#rubric = chosen.files[0] ? await chosen.files[0].text() : "";
-      await this.fill(this.#rows);
+      const [file] = chosen.files;
+      chosen.value = "";
+      if (file) await this.fill(this.#rows, (await file.text()).replaceAll("\0", ""));
     });
     const buttons = [...Object.keys(TYPES).map((form) => button({ textContent: say("Save as {form}", { form: form.toUpperCase() }) }, () => this.#save(form))), button({ textContent: say("Save the rubric, to edit it") }, () => this.#saveRubric()), button({ textContent: say("Use a rubric …") }, () => chosen.click())];
     const parts = [make("p", { className: "buttons" }, ...buttons), chosen, ...notes.map((textContent) => make("p", { className: "hint", textContent })), make("div", { className: "scrolls", tabIndex: 0, role: "region", ariaLabel: say("Table of the class") }, table)];
@@ -163,7 +175,7 @@ export class ClassTable {
   async #save(form) {
     const name = `class.${form}`;
     try {
-      download(await this.service.ask(`class ${form}`, "class-table", { body: this.#body(this.#order().map(({ k }) => this.#rows[k])), accept: TYPES[form] }), name);
+      download(await this.service.ask(`class ${form}`, "class-table", { body: { files: this.#order().map(({ k }) => this.#rows[k]), rubric: this.#rubric }, accept: TYPES[form] }), name);
       announceSaved(name);
     } catch (error) {
       announceRefusal(error);

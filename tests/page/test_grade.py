@@ -96,10 +96,10 @@ def test_a_class_is_graded_from_an_archive_sorted_saved_and_two_equal_files_are_
     archive = tmp_path / "class.zip"
     with ZipFile(archive, "w", ZIP_DEFLATED) as written:
         for team, file in (("红队", files[1]), ("Gold", files[1]), ("Blue", files[3])):
-            written.write(file, f"{team}/{file.name}")
+            written.write(file, f"{team}/results/{file.name}" if team == "Gold" else f"{team}/{file.name}")
         written.writestr("__MACOSX/Gold/._result2.xlsx", b"of a system")
         written.writestr("Blue/screenshot.png", b"\x89PNG\r\n\x1a\n" + bytes(99))
-    person = open_page(EASY).reaches_below()
+    person = open_page(EASY, failing=True).reaches_below()
     person.takes(archive, "#files").sees({"#grades .class h3": "Class: 4 files", "#grades .class tbody tr": 4})
     person.sees({"#grades .class .hint": "红队/result2.xlsx, Gold/result2.xlsx"})
     teams = "#grades .class tbody td:first-child"
@@ -115,5 +115,7 @@ def test_a_class_is_graded_from_an_archive_sorted_saved_and_two_equal_files_are_
     person.takes(tmp_path / "mine.csv", "#grades .class input[type=file]").sees(
         {"#grades tr:has-text('Gold') .number >> nth=2": "55"}
     )
+    (tmp_path / "typo.csv").write_text("rounded,o.5\n")
+    person.takes(tmp_path / "typo.csv", "#grades .class input[type=file]").sees({"#status": "o.5"})
     assert b"Gold" in person.saves("#grades .class .buttons button >> nth=1", "class.csv")
     person.speaks("zh").sees({"#grades .class h3": "班级：4 个文件", "#grades .class th >> nth=0": "队伍"})
