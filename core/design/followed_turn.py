@@ -90,10 +90,13 @@ class FollowedSearch(TurnSearch):
         super().__init__(dragon, circle, stray, budget)
         self.refusal = TurnRefusal(dragon, self.growth)
         self.mirrored = False
-        self.tightest = SIZE_MIN
         self.random = np.random.default_rng(0)
         self.entry_least, self.exit_least = self.refusal.least_ends(self.radius)
         self.inner = min(self.entry_least, self.exit_least)
+
+    @property
+    def tightest(self) -> float:
+        return SIZE_MIN
 
     def _improve(self, place: Floats) -> bool:
         """Only before boxes are looked at: locally shortest turns are those by closed forms of a least radius."""

@@ -166,8 +166,7 @@ class TurnSearch:
     mirrored: whether each turn also stands for the same turn danced backwards; best, shortest: the shortest turn that
         was danced with proof, and its length; longer: boxes excluded by their length; tried: places of locally shortest
         turns; multipliers: of those turns that are nearly as short as the best one; width: of the bracket [m];
-        tightest: least radius of an arc in the boxes [m]; at_once: most boxes of a round, those of the shortest turns
-        first
+        at_once: most boxes of a round, those of the shortest turns first
     """
 
     width = LENGTH_WIDTH
@@ -183,7 +182,7 @@ class TurnSearch:
         self.dragon, self.circle, self.stray, self.budget = dragon, circle, stray, budget
         self.pitch, self.radius, self.ratio, _, self.margin = circle
         self.growth = circle.growth
-        self.least = self.tightest = least_bend(dragon)
+        self.least = least_bend(dragon)
         self.inner = least_entry(self.growth, self.radius, self.least)
         self.overlap = OverlapSearch(dragon, self.margin, most_benches(dragon, self.radius))
         self.mirrored = self.overlap.equal and self.ratio in (None, 1.0)
@@ -198,7 +197,7 @@ class TurnSearch:
     def answer(self) -> ShortestTurn:
         """The answer. raises: InvalidValue, TooMuchWork"""
         try:
-            return self._search()
+            return self.searched()
         except Halted as halted:
             rule = (
                 "must be smaller, or benches fewer or more alike: no turn was decided to be the shortest {then}; "
@@ -207,7 +206,12 @@ class TurnSearch:
             values, radius = chord_values(self.dragon), Quantity(self.radius, "m")
             raise too_much(self.budget, "turning_radius", rule, radius, **values) from halted
 
-    def _search(self) -> ShortestTurn:
+    @property
+    def tightest(self) -> float:
+        """Least radius of an arc in the boxes [m]."""
+        return self.least
+
+    def searched(self) -> ShortestTurn:
         """The answer. raises: InvalidValue, Halted"""
         for start in starts(self.growth, self.inner, self.radius, self.ratio, self.least):
             self.budget.look()

@@ -46,7 +46,7 @@ def turn_length_bounds(
     work = (budget or Budget()).within(RATIOS_WORK if ratio is None else SHORTEST_WORK)
     search, longest = _Lengths(dragon, circle, 0.0, work), circle.turn().length
     try:
-        low = search.answer().length_bracket[0]
+        low = search.searched().length_bracket[0]
         work.afford()
     except Halted as halted:
         rule = (
