@@ -13,8 +13,11 @@ from app.wire.fields import Margin, Strays, UniformDragon, measure
 from app.wire.paths import TurnCircle
 from app.wire.question import Command, Question, Terms
 from app.wire.readings import limit_words, turn_words
-from core.language import say
-from core.quantities import format_number
+from core.language import phrase, say
+from core.quantities import format_bound, format_number
+
+# Width of a bracket that the work did not suffice to make narrow [m]: others have 1 mm at most.
+UNDECIDED_LEAST = 2e-3
 
 
 class ShortestTurnFields(Strays, TurnCircle):
@@ -50,8 +53,9 @@ class ShortestTurn(Turn):
 
     length_bracket: Point | None = measure(
         "m",
-        "Proven: no turn of two arcs inside the circle is shorter; the length of this one, which was danced without a "
-        "contact. It is wider where the work was spent first. null for an opposite exit",
+        "Proven: no turn of two arcs inside the circle, with the ratio and the bends asked for, is shorter; the length "
+        "of this one, which was danced without a contact. It is wider where the work was spent first. null for an "
+        "opposite exit",
     )
     entry_bracket: Point = measure(
         "m",
@@ -63,7 +67,7 @@ class ShortestTurn(Turn):
         description="Reason against a shorter turn. least_radius: a bend has the least radius that is taken for the "
         "longest chord, 0.1 % more than it needs, because a proof does (bend: the former name, which no answer has); "
         "circle: it begins or ends on the circle; contact: benches come nearer than the margin, or touch if it is 0; "
-        "following: in every shorter turn a bench cannot follow, or benches touch, with any_bend alone; "
+        "following (any_bend): in each shorter turn that is excluded a bench cannot follow, or benches touch; "
         "centre: nothing prevents it, down to the centre; undecided: rounding hides whether benches come within the "
         "margin at the lower end of entry_bracket"
     )
@@ -111,9 +115,20 @@ def shortest_turn(request: ShortestTurnQuery | ShortestTurnRequest, terms: Terms
         say("With both ends on the circle every ratio gives {length:.6f} m.", length=on_circle),
         limit_words(result.limited_by, request.margin, request.to_stray()),
     ]
+    if isinstance(result, core.ShortestTurn) and (spent := _spent_words(result)):
+        sentences.append(spent)
     words = evidence.shortest_words(result, request, dragon) if terms.words else None
     said = {"stray": request.total_stray, "sentences": sentences, "words": words}
     return ShortestTurn.from_result(result, **said, **own, **Turn.of(result.turn).model_dump())
+
+
+def _spent_words(result: core.ShortestTurn) -> str:
+    """What the work did not suffice to decide; empty if the bracket is as narrow as it should be."""
+    low, high = result.length_bracket
+    if high - low < UNDECIDED_LEAST:
+        return ""
+    template = phrase("The work was spent before it was decided whether turns of {low} m and more can be danced.")
+    return say(template, low=format_bound(low, 3))
 
 
 def _title(request: ShortestTurnQuery | ShortestTurnRequest) -> str:

@@ -68,8 +68,8 @@ class TurnLimit(StrEnum):
     the deepest entry that is tried. LEAST_RADIUS: half of the longest chord over ROUTE_SINE_LIMIT, at which every bench
     can follow; tighter arcs that can be followed too (core/paths/following.py) are not tried. UNDECIDED: rounding hides
     whether two benches come within the margin. CIRCLE: the turn begins or ends on its circle (shortest_turn() alone).
-    FOLLOWING: in every shorter turn a bench cannot follow, or benches touch (followed_turn() alone). BEND: what
-    LEAST_RADIUS was called; no answer has it.
+    FOLLOWING: in each shorter turn that is excluded a bench cannot follow, or benches touch (followed_turn() alone).
+    BEND: what LEAST_RADIUS was called; no answer has it.
 
     >>> from core import shortest_turn
     >>> shortest_turn(Dragon(), 1.7).limited_by

@@ -42,12 +42,12 @@ ROUND = 4096
 PLACE_WORK = 0.5
 # Moves of which nothing is known count as this [m/m].
 MOVES_MOST = 1e3
-# Half widths of boxes whose middle is danced [m], [rad], [1]; steps by which a turn is made shorter: first, last, and
-# the tries without one after which they become smaller.
 # Steps of the grid of turns that are danced first [m], [rad], and most of them.
 SAMPLED, SAMPLES = (0.05, 0.05), 60
-DANCED = np.array([2e-3, 2e-3, 2e-3])
-STEP, STEP_LEAST, TRIES = 0.02, 1e-8, 12
+# Half width of boxes whose middle is danced [m], [rad]; steps by which a turn is made shorter: first, last, and the
+# tries without one after which they become smaller.
+DANCED = 2e-3
+STEP, STEP_LEAST, TRIES = 0.02, 1e-8, 24
 
 
 @question_about("dragon", Dragon)
@@ -128,10 +128,12 @@ class FollowedSearch(TurnSearch):
     def _sample(self) -> None:
         """Dance the shortest turns of a grid that no proof refuses, and make them shorter."""
         assert self.best is not None
-        self._shorten(self._place(self.best))
+        logarithm = math.log(self.best.ratio)
+        turned = (self.best.exit_radius - self.best.entry_radius) / self.growth
+        self._shorten(np.array([self.best.entry_radius, turned, logarithm]))
         entries = np.arange(self.entry_least, self.radius, SAMPLED[0])
         sweep = (self.radius - self.inner) / self.growth
-        grid = np.meshgrid(entries, np.arange(-sweep, sweep, SAMPLED[1]), [math.log(self.best.ratio)], indexing="ij")
+        grid = np.meshgrid(entries, np.arange(-sweep, sweep, SAMPLED[1]), [logarithm], indexing="ij")
         points = np.array(grid).reshape(3, -1)
         sizes = sizes_of(self.growth, *points)
         exits = (self.exit_least <= sizes[5]) & (sizes[5] <= self.radius)
@@ -139,18 +141,11 @@ class FollowedSearch(TurnSearch):
         self.budget.spend(BOX_WORK * points.shape[1])
         alone, proofs = np.zeros_like(points), np.zeros((points.shape[1], PROOF_COLUMNS))
         refused = self.refusal.hairpins(points, alone)
-        left = np.flatnonzero(~refused)
-        points = points[:, left]
-        refused = self._refused(turns_in(self.growth, points, alone[:, left]), points, alone[:, left], proofs[left])
+        refused |= self._refused(turns_in(self.growth, points, alone), points, alone, proofs)
         points = points[:, ~refused]
         for k in sizes_of(self.growth, *points)[4].argsort()[:SAMPLES].tolist():
             if self._dance(points[:, k]):
                 self._shorten(points[:, k])
-
-    def _place(self, turn: Turn) -> Floats:
-        """The parameters of a turn, (3,)."""
-        turned = (turn.exit_radius - turn.entry_radius) / self.growth
-        return np.array([turn.entry_radius, turned, math.log(turn.ratio)])
 
     def _moves(self, turns: Turns) -> Floats:
         """About how far points of the turns move by each parameter, (3, N) [m/m], [m/rad], [m/1]."""
@@ -171,18 +166,17 @@ class FollowedSearch(TurnSearch):
     def _dance_some(self, turns: Turns, boxes: Boxes, left: NDArray[np.bool_]) -> None:
         """Dance turns of small boxes, and make them shorter."""
         shorter = turns.middle[4] < self.shortest - self.width
-        small = left & shorter & (boxes.halves <= DANCED[:, None]).all(axis=0)
+        small = left & shorter & (boxes.halves.max(axis=0) <= DANCED)
         for k in np.flatnonzero(small)[:DANCES].tolist():
             if self._dance(boxes.centres[:, k]):
                 self._shorten(boxes.centres[:, k])
 
     def _shorten(self, point: Floats) -> None:
         """Make a danced turn shorter by random steps, as long as they can be danced."""
-        free = np.array([1.0, 1.0, 1.0 if self.ratio is None else 0.0])
         step, failed = STEP, 0
         while step > STEP_LEAST and self.budget.left > 0.0:
             self.budget.look()
-            near = point + step * free * self.random.standard_normal(3)
+            near = point + step * np.append(self.random.standard_normal(2), 0.0)
             near[0] = min(near[0], self.radius)
             near[1] = min(near[1], (self.radius - near[0]) / self.growth)
             if self._dance(near):

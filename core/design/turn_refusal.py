@@ -166,7 +166,7 @@ class TurnRefusal:
         count = centres.shape[1]
         refused = np.ones(count, dtype=np.bool_)
         for first, second in product((0, 1), (0, 1)):
-            rows, held, usable, angles = self._family(turns, centres, halves, (first, second))
+            rows, held, usable, angles = self.family(turns, centres, halves, (first, second))
             length = np.maximum(rows[:, columns.TURN_LOW : columns.TURN_LOW + 2], 0.0).sum(axis=1)
             held &= ~(length >= longest) & ~self._half_circles(turns, centres[0] - halves[0], angles)
             look = np.flatnonzero(held & usable & refused)
@@ -194,7 +194,7 @@ class TurnRefusal:
                 found |= tight & (angles[k].low >= math.pi) & (both > chord)
         return found
 
-    def _family(
+    def family(
         self, turns: Turns, centres: Floats, halves: Floats, other: tuple[int, int]
     ) -> tuple[Floats, NDArray[np.bool_], NDArray[np.bool_], list[Span]]:
         """Rows of the boxes for turns whose angles are those that were followed (0), or 2 pi larger or smaller (1).

@@ -14,15 +14,23 @@ cdef class TurnBox:
     cdef double[2] cosine, sine, x, y
 
     @cython.locals(k=cython.Py_ssize_t)
-    cdef void take(self, Pieces rows, Py_ssize_t n) noexcept nogil
+    cpdef void take(self, Pieces rows, Py_ssize_t n) noexcept nogil
     cdef (double, double, double, double) half(self, Py_ssize_t k, double way) noexcept nogil
     cdef (double, double, double, double) place(self, double s) noexcept nogil
     cdef double turned(self, double s) noexcept nogil
     cdef double moved(self, double s) noexcept nogil
+    cdef double bent(self, Py_ssize_t k, double way) noexcept nogil
     @cython.locals(k=cython.Py_ssize_t)
     cdef double turned_whole(self, double s) noexcept nogil
+    cdef double carried(self, Py_ssize_t k, double way, double turned) noexcept nogil
     @cython.locals(k=cython.Py_ssize_t)
     cdef double moved_whole(self, double s) noexcept nogil
+    @cython.locals(near=double, far=double)
+    cdef double joint(self, Py_ssize_t k, double first, double last) noexcept nogil
+    @cython.locals(k=cython.Py_ssize_t)
+    cpdef double turned_over(self, double first, double last) noexcept nogil
+    @cython.locals(k=cython.Py_ssize_t)
+    cpdef double moved_over(self, double first, double last) noexcept nogil
     @cython.locals(i=cython.Py_ssize_t)
     cdef double near_until(self, double s, double chord, double sign) noexcept nogil
     cdef double far_from(self, double s, double r, double chord, double sign) noexcept nogil

@@ -169,27 +169,60 @@ class TurnBox:
         """Most by which the point at s differs from the nominal one, in a box `scale` times as large [m]."""
         return self.scale * self.moved_whole(s)
 
+    def bent(self, k, way):
+        """The integral of the difference of the curvatures from M to `way` on half k, at most [rad]."""
+        most = self.bend[k] * min(way, self.high[k])
+        if way > self.low[k]:
+            most += self.sharpest[k] * self.longer[k] + self.unlike[k] * (way - self.low[k])
+        return most
+
     def turned_whole(self, s):
         """Most by which the direction at s differs from the nominal one [rad]."""
         k = 1 if s >= 0.0 else 0
         way = fabs(s)
-        most = self.bend[k] * min(way, self.high[k])
-        if way > self.low[k]:
-            most += self.sharpest[k] * self.longer[k] + self.unlike[k] * (way - self.low[k])
-            if way >= self.high[k]:
-                most = min(most, self.past[k] + self.unlike[k] * (way - self.low[k]))
+        most = self.bent(k, way)
+        if way >= self.high[k]:
+            most = min(most, self.past[k] + self.unlike[k] * (way - self.low[k]))
         return most
+
+    def carried(self, k, way, turned):
+        """Most by which the point `way` from M on half k differs [m]. turned: as directions beyond the arc do [rad]"""
+        near = min(way, self.low[k])
+        return min(0.5 * self.bend[k] * near, 2.0) * near + (way - near) * min(turned, 2.0)
 
     def moved_whole(self, s):
         """Most by which the point at s differs from the nominal one [m]."""
         k = 1 if s >= 0.0 else 0
         way = fabs(s)
-        near = min(way, self.low[k])
-        most = min(0.5 * self.bend[k] * near, 2.0) * near + (way - near) * min(self.turned_whole(s), 2.0)
+        most = self.carried(k, way, self.turned_whole(s))
         if way > self.low[k]:
             far = max(way, self.high[k])
             beyond = self.end[k] + (far - self.low[k]) * self.turned_whole(far if s >= 0.0 else -far)
             most = min(most, beyond + 2.0 * (far - way))
+        return most
+
+    def joint(self, k, first, last):
+        """The furthest way of the places from first to last on half k that is on the arc in some turns and on the coil
+        in others [m]; below 0 if there is none. Only there turned() and moved() may fall as the way grows."""
+        near, far = (max(first, 0.0), last) if k == 1 else (max(-last, 0.0), -first)
+        return min(far, self.high[k]) if far > self.low[k] and near < self.high[k] else -1.0
+
+    def turned_over(self, first, last):
+        """Most by which a direction at a place from first to last differs from the nominal one [rad]."""
+        most = max(self.turned(first), self.turned(last))
+        for k in range(2):
+            way = self.joint(k, first, last)
+            if way > 0.0:
+                most = max(most, self.scale * self.bent(k, way))
+        return most
+
+    def moved_over(self, first, last):
+        """Most by which a point at a place from first to last differs from the nominal one [m]."""
+        most = max(self.moved(first), self.moved(last))
+        for k in range(2):
+            way = self.joint(k, first, last)
+            if way > 0.0:
+                most = max(most, self.scale * self.carried(k, way, self.bent(k, way)))
         return most
 
     def near_until(self, s, chord, sign):
@@ -200,7 +233,7 @@ class TurnBox:
         for i in range(STEPS):
             bx, by, _, _ = self.place(r)
             room = chord - sqrt((x - bx) * (x - bx) + (y - by) * (y - by)) - own
-            slack = room - max(self.moved(r), self.moved(r + sign * room))
+            slack = room - self.moved_over(min(r, r + sign * room), max(r, r + sign * room))
             if slack < LAST_STEP * chord:
                 break
             r += sign * slack
@@ -230,8 +263,8 @@ class TurnBox:
         if low == -FREE:
             return 2.0
         x, y, tx, ty = self.place(s)
-        error = self.moved(s) + max(self.moved(low), self.moved(high)) + SPARE
-        aslant = max(self.turned(low), self.turned(high))
+        error = self.moved(s) + self.moved_over(low, high) + SPARE
+        aslant = self.turned_over(low, high)
         across = self.turned(s)
         half = 0.5 * (high - low) / PARTS
         most = chord + high - low + error
@@ -241,6 +274,8 @@ class TurnBox:
             bx, by, ux, uy = self.place(r)
             k = 1 if r >= 0.0 else 0
             bend = self.sharpest[k] if fabs(r) - half < self.high[k] else self.curved[k]
+            if fabs(r) < half:
+                bend = max(self.sharpest[0], self.sharpest[1])
             rear = (x - bx) * ux + (y - by) * uy + half * (1.0 + bend * most) + error + most * aslant
             front = (x - bx) * tx + (y - by) * ty + half + error + most * across
             worst = max(worst, min(rear / chord - self.least, front / chord))
@@ -256,7 +291,7 @@ class TurnBox:
         if high == -FREE:
             return 2.0
         half = 0.5 * (high - low) / PARTS
-        error = max(self.moved(low), self.moved(high)) + half + SPARE
+        error = self.moved_over(low, high) + half + SPARE
         worst = -2.0
         for i in range(PARTS):
             s = low + (2 * i + 1) * half
@@ -320,7 +355,7 @@ class TurnBox:
         if high == -FREE or (over - high) * sign <= 0.0:
             return 2.0
         x, y, _, _ = self.place(0.5 * (low + high))
-        own = 0.5 * fabs(high - low) + max(self.moved(low), self.moved(high)) + SPARE
+        own = 0.5 * fabs(high - low) + self.moved_over(min(low, high), max(low, high)) + SPARE
         for i in range(1, BETWEEN):
             between = high + (over - high) * i / BETWEEN
             bx, by, _, _ = self.place(between)

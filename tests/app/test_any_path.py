@@ -35,6 +35,18 @@ def test_a_turn_of_any_ratio_is_that_of_core():
     known = core.shortest_turn(core.Dragon(), 1.7, ratio=None, budget=core.Budget(1e7))
     assert answer.ratio == known.turn.ratio
     assert answer.length_bracket == known.length_bracket
+    assert answer.sentences[-1].startswith("The work was spent")
+
+
+def test_a_turn_with_any_bend_is_that_of_core_and_a_whole_answer_says_nothing_of_work():
+    request = ShortestTurnRequest(pitch=1.7, ratio=1.25, any_bend=True)
+    answer = shortest_turn(request, Terms(budget=core.Budget(5e7)))
+    known = core.followed_turn(core.Dragon(), 1.7, ratio=1.25, budget=core.Budget(5e7))
+    assert answer.length_bracket == known.length_bracket
+    assert answer.limited_by is core.TurnLimit.FOLLOWING
+    assert answer.sentences[-1].startswith("The work was spent")
+    whole = shortest_turn(ShortestTurnRequest(pitch=1.7), Terms(budget=core.Budget()))
+    assert not any(sentence.startswith("The work") for sentence in whole.sentences)
 
 
 # -- routes and waypoints ------------------------------------------------------------------------------------
