@@ -14,6 +14,7 @@ import csv
 import io
 from collections import Counter, defaultdict
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 
@@ -62,10 +63,15 @@ class ClassRow:
 def rubric_of(text: str) -> dict[str, float]:
     """The points by what they are for, from a CSV with lines such as `result1,40`; empty: the usual ones.
 
+    Cells may be divided by semicolons or tabs too, and decimals by a comma then, as in tables of other languages.
     raises: InvalidValue naming the line
     """
-    rubric = dict(DEFAULT)
-    for k, line in enumerate(csv.reader(io.StringIO(text.lstrip("\ufeff"))), start=1):
+    rubric, is_known = dict(DEFAULT), not text.strip()
+    divider = next((one for one in (";", "\t") if one in text), ",")
+    lines: list[list[str]] = []
+    with suppress(csv.Error):  # of a cell that no rubric has
+        lines = list(csv.reader(io.StringIO(text.lstrip("\ufeff")), delimiter=divider))
+    for k, line in enumerate(lines, start=1):
         name = line[0].strip() if line else ""
         if not name or (k == 1 and name not in DEFAULT):  # the heads
             continue
@@ -74,14 +80,17 @@ def rubric_of(text: str) -> dict[str, float]:
             raise InvalidValue.in_words("rubric", words, got=Given(name), line=k, names=str(Listed(DEFAULT)))
         most = 1.0 if name == ROUNDED else POINTS_MAX
         try:
-            value = float(line[1])
+            value = float(line[1].replace(",", "."))
         except (IndexError, ValueError):
             value = -1.0
         if not 0.0 <= value <= most:
             words = "line {line} of the rubric must have a number from 0 to {most} behind {name}"
             got = Given(line[1] if len(line) > 1 else "")
             raise InvalidValue.in_words("rubric", words, got=got, line=k, most=f"{most:g}", name=name)
-        rubric[name] = value
+        rubric[name], is_known = value, True
+    if not is_known:
+        words = "the rubric must be a CSV file with lines such as {line}"
+        raise InvalidValue.in_words("rubric", words, got=Given(text), line="result1,40")
     return rubric
 
 

@@ -63,6 +63,7 @@ def test_the_table_opens_in_a_spreadsheet_and_no_cell_is_a_formula(client):
         ("result1,lots\n", "line 1 of the rubric must have a number from 0 to 1000 behind result1"),
         ("result1,40\nrounded,2\n", "line 2 of the rubric must have a number from 0 to 1 behind rounded"),
         ("result1,nan\n", "line 1 of the rubric must have a number"),
+        ("PK\x03\x04 of another program", "the rubric must be a CSV file with lines such as result1,40"),
     ],
 )
 def test_a_rubric_that_cannot_be_read_is_refused_by_its_line(client, rubric, words):
@@ -75,6 +76,7 @@ def test_a_rubric_reads_as_it_is_written():
     rubric = {"result1": 12.5, "result2": 0.0, "result4": 30.0, "rounded": 1.0}
     assert rubric_of("\ufeff" + rubric_text(rubric)) == rubric
     assert points_of(row("Red", ""), rubric) == 12.5
+    assert rubric_of("Wofür;Punkte\nresult1;12,5\nresult2;0\nresult4;30\nrounded;1\n") == rubric
 
 
 def test_of_two_files_for_one_workbook_the_better_counts():
