@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +20,7 @@ from core.contact.between import holds_apart
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.display import Readable, WithArrays, format_range
-from core.dragon import Stray, checked_stray
+from core.dragon import Dragon, Stray, checked_stray
 from core.extremes.speed import checked_limit
 from core.kernels import Budget
 from core.language import say
@@ -34,6 +35,8 @@ from core.venue import Venue
 
 # Travel of the head between two samples [m], and most samples; fewer where benches and edges make more than PAIRS.
 STEP, SAMPLES_MAX, PAIRS = 0.3, 600, 4e6
+# Pairs of benches whose distances are compared at once [1]: few enough for the cache of a processor.
+PAIRS_AT_ONCE = 20_000
 SAMPLES_MIN = 30
 # Rectangles that are measured first [1]: the nearest of their circles.
 FIRST = 64
@@ -87,45 +90,6 @@ class AreaGap(Readable):
     enough: float
 
 
-@question_about("dance", Dance)
-def area_gaps(
-    dance: Dance,
-    venue: Venue,
-    *,
-    margin: float = 0.0,
-    stray: float | Stray = 0.0,
-    start: float | None = None,
-    stop: float | None = None,
-    budget: Budget | None = None,
-) -> tuple[AreaGap, ...]:
-    """The least distance of the benches from each area of a venue, at the samples of breaches().
-
-    margin [m], stray, start, stop [s]: as for check()
-    raises: InvalidValue; TooMuchWork
-
-    >>> from core import Area, Dragon, Line, Route
-    >>> lane = Route([Line((0, 0), (30, 0))])
-    >>> tree = Area("tree", (((14, 1), (16, 1), (16, 2), (14, 1)),))
-    >>> plain = Area("plain", (((-9, -9), (39, -9), (39, 9), (-9, 9), (-9, -9)),))
-    >>> area_gaps(Dance(Dragon(3), lane), Venue(plain, (tree,)), margin=0.5)[1]
-    <AreaGap: name tree, distance 0.85, enough 0.5 m>
-    """
-    budget, strayed = budget or Budget(), checked_stray(stray, dance.dragon)
-    enough = checked_number("margin", margin, "m", 0.0, MARGIN_MAX) + float(gains(dance.dragon).max()) * strayed
-    edges = [edge_frames(area.edges) for area in venue.areas]
-    times = _times(dance, dance.span(start, stop), sum(map(len, edges)))
-    budget.afford(float(len(times) * dance.dragon.benches))
-    poses = bench_poses(trajectory(dance, times, budget=budget).position)
-    boxes = frames(poses, np.stack([dance.dragon.lengths, dance.dragon.widths], axis=-1))
-    flat, centres = boxes.reshape(-1, boxes.shape[-1]), poses[..., :2].reshape(-1, 2)
-    gaps = []
-    for area, frame in zip(venue.areas, edges, strict=True):
-        within = inside(area.rings, centres)
-        wrong = not within.all() if area is venue.square else within.any()
-        gaps.append(AreaGap(area.name, 0.0 if wrong else max(_least_gap(flat, frame), 0.0), enough))
-    return tuple(gaps)
-
-
 def _least_gap(boxes: Floats, edges: Floats) -> float:
     """The least gap between any rectangle and any edge [m]: those whose circles come nearest are measured first."""
     reach = np.hypot(boxes[:, kernels.FRAME_HALF_LENGTH], boxes[:, kernels.FRAME_HALF_WIDTH])
@@ -149,7 +113,7 @@ def _least_gap(boxes: Floats, edges: Floats) -> float:
 
 
 @question_about("dance", Dance)
-def breaches(
+def breaches_and_gaps(
     dance: Dance,
     venue: Venue | None = None,
     *,
@@ -159,8 +123,9 @@ def breaches(
     start: float | None = None,
     stop: float | None = None,
     budget: Budget | None = None,
-) -> tuple[Breach, ...]:
-    """The stretches of the path on which a sample of the whole dance breaks a limit, in order of kind and place.
+) -> tuple[tuple[Breach, ...], tuple[AreaGap, ...] | None]:
+    """The stretches of the path on which a sample of the whole dance breaks a limit, in order of kind and place, and
+    the least distance of the benches from each area at the same samples; None without a venue.
 
     margin [m], stray, speed_limit [m/s], start, stop [s]: as for check()
     raises: InvalidValue; TooMuchWork
@@ -169,8 +134,11 @@ def breaches(
     >>> lane = Route([Line((0, 0), (30, 0))])
     >>> tree = Area("tree", (((14, 0.1), (16, 0.1), (16, 2), (14, 0.1)),))
     >>> plain = Area("plain", (((-9, -9), (39, -9), (39, 9), (-9, 9), (-9, -9)),))
-    >>> breaches(Dance(Dragon(3), lane), Venue(plain, (tree,)))
+    >>> marked, gaps = breaches_and_gaps(Dance(Dragon(3), lane), Venue(plain, (tree,)))
+    >>> marked
     (<Breach: margin from s = 11.048 to 18.974 m>,)
+    >>> gaps[1]
+    <AreaGap: name tree, distance 0, enough 0 m>
     """
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     strayed = checked_stray(stray, dance.dragon)
@@ -187,14 +155,36 @@ def breaches(
         marks[BreachKind.SPEED].append(np.stack([fast - 0.5 * STEP, fast + 0.5 * STEP], axis=-1))
     spans = np.stack([s[:, 1:], s[:, :-1]], axis=-1)
     held = strayed > 0.0 and not margin and holds_apart(dance, dance.clock.travel(until), strayed, budget)
-    near, if_strayed = _too_near(dance, motion.position, venue, edges, (margin, strayed), held)
+    poses = bench_poses(motion.position)
+    boxes = frames(poses, np.stack([dance.dragon.lengths, dance.dragon.widths], axis=-1))
+    wrong = [] if venue is None else _on_wrong_sides(venue, poses)
+    near, if_strayed = _too_near(dance.dragon, boxes, edges, (margin, strayed), held)
+    for one in wrong:
+        near |= one
     marks[BreachKind.MARGIN].append(spans[near])
     marks[BreachKind.STRAY].append(spans[if_strayed & ~near])
-    return tuple(
+    found = tuple(
         Breach(kind, start, end, _along(dance, start, end))
         for kind, every in marks.items()
         for start, end in _united(np.concatenate(every))
     )
+    if venue is None:
+        return found, None
+    flat, enough = boxes.reshape(-1, boxes.shape[-1]), margin + float(gains(dance.dragon).max()) * strayed
+    least = [0.0 if off.any() else max(_least_gap(flat, area), 0.0) for off, area in zip(wrong, edges, strict=True)]
+    return found, tuple(AreaGap(area.name, gap, enough) for area, gap in zip(venue.areas, least, strict=True))
+
+
+def breaches(dance: Dance, venue: Venue | None = None, **options: Any) -> tuple[Breach, ...]:
+    """The stretches alone. options: as for breaches_and_gaps()"""
+    return breaches_and_gaps(dance, venue, **options)[0]
+
+
+def _on_wrong_sides(venue: Venue, poses: Floats) -> list[NDArray[np.bool_]]:
+    """For each area which benches (T, n) have their middle on its wrong side: outside the square, in an obstacle."""
+    centres = poses[..., :2].reshape(-1, 2)
+    within = [inside(area.rings, centres).reshape(poses.shape[:2]) for area in venue.areas]
+    return [~one if area is venue.square else one for area, one in zip(venue.areas, within, strict=True)]
 
 
 def _times(dance: Dance, span: tuple[float, float], edges: int) -> Floats:
@@ -207,17 +197,15 @@ def _times(dance: Dance, span: tuple[float, float], edges: int) -> Floats:
 
 
 def _too_near(
-    dance: Dance, handles: Floats, venue: Venue | None, edges: list[Floats], room: tuple[float, float], held: bool
+    dragon: Dragon, boxes: Floats, edges: list[Floats], room: tuple[float, float], held: bool
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """For all benches at all samples (T, n): within the margin; and if people stray.
 
     room: margin, stray [m]; held: whether two with one bench between them stay apart as people stray
     """
-    dragon, (margin, stray) = dance.dragon, room
+    margin, stray = room
     ground = reach(dragon, stray) if stray > 0.0 else None
-    poses = bench_poses(handles)
-    boxes = frames(poses, np.stack([dragon.lengths, dragon.widths], axis=-1))
-    near = np.zeros(poses.shape[:2], dtype=bool)
+    near = np.zeros(boxes.shape[:2], dtype=bool)
     if_strayed = near.copy()
     for a, b, who, need in _pairs(boxes, edges, margin, gains(dragon) * stray):
         gap = np.empty(len(a))
@@ -233,11 +221,6 @@ def _too_near(
         for mark, within in marks:
             for rows in who:
                 mark.reshape(-1)[rows[within]] = True
-    if venue is not None:
-        centres = poses[..., :2].reshape(-1, 2)
-        near |= ~inside(venue.square.rings, centres).reshape(near.shape)
-        for area in venue.obstacles:
-            near |= inside(area.rings, centres).reshape(near.shape)
     return near, if_strayed
 
 
@@ -272,13 +255,14 @@ def _pairs(
     reach = np.hypot(boxes[0, :, kernels.FRAME_HALF_LENGTH], boxes[0, :, kernels.FRAME_HALF_WIDTH])
     i, j = np.triu_indices(benches, 2)
     need, far = margin + strayed[i] + strayed[j], reach[i] + reach[j]
-    for t, row in enumerate(boxes):
-        apart = np.hypot(*(row[i, :2] - row[j, :2]).T)
-        close = np.flatnonzero(apart <= far + need)
-        if len(close):
-            a, b = i[close], j[close]
-            yield row[a], row[b], [t * benches + a, t * benches + b], need[close]
     flat = boxes.reshape(-1, boxes.shape[-1])
+    rows = max(PAIRS_AT_ONCE // max(len(i), 1), 1)
+    for first in range(0, len(boxes), rows):
+        x, y = boxes[first : first + rows, :, :2].transpose(2, 0, 1)
+        t, close = np.nonzero((x[:, i] - x[:, j]) ** 2 + (y[:, i] - y[:, j]) ** 2 <= (far + need) ** 2)
+        if len(close):
+            a, b = ((first + t) * benches + end[close] for end in (i, j))
+            yield flat[a], flat[b], [a, b], need[close]
     need, far = (np.tile(column, len(boxes)) for column in (margin + strayed, reach))
     for area in edges:
         beside = np.flatnonzero(_from_disc(flat, area)[0] <= far + need)

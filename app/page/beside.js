@@ -32,6 +32,11 @@ export class Beside {
       this.#makeRoom(null);
       this.show();
     });
+    // Known before it is asked for, because a drag has no time for a layout.
+    new ResizeObserver(([{ contentRect: { width } }]) => {
+      this.isNarrow = width < WIDE;
+      this.show();
+    }).observe($("#stage"));
     const { edit, name, radius, unit, angle, places, use, street } = this.row;
     this.copy = textButton(phrase("Copy"), () => editor.duplicate());
     const remove = textButton(phrase("Remove"), () => editor.remove());
@@ -43,6 +48,9 @@ export class Beside {
     this.title = make("b");
     box.append(make("div", {}, name, this.title, close), this.own, this.gap, this.size, this.aligns, make("div", {}, this.copy, remove));
   }
+
+  /** True for a picture without room beside a thing. */
+  isNarrow = false;
 
   /** The chosen things. */
   get #things() {
@@ -79,7 +87,7 @@ export class Beside {
   /** In a narrow window, and for fingers, the numbers stand below the picture, which keeps its size, so that nothing moves under a finger. */
   #makeRoom(thing) {
     const stage = $("#stage");
-    const isBelow = Boolean(thing) && (stage.offsetWidth < WIDE || hasFingers.matches);
+    const isBelow = Boolean(thing) && (this.isNarrow || hasFingers.matches);
     if (isBelow === this.box.classList.contains("below")) return;
     stage.style.flex = isBelow ? `0 0 ${stage.offsetHeight}px` : "";
     this.box.classList.toggle("below", isBelow);

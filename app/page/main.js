@@ -52,6 +52,8 @@ performance.setResourceTimingBufferSize(10_000);
 const state = new State();
 const service = new Service({
   busy(channel, busy) {
+    // Answers come while a hand drags: signs of waiting would only make each of them later.
+    if (busy && questions.isHeld()) return;
     for (const box of BUSY[channel] ?? []) $(box).setAttribute("aria-busy", busy);
     if (channel === "look" && busy) $("#scan").classList.remove("coarse"); // The view drawn so far is no longer of these numbers.
     if (channel === "contact") $("main").classList.toggle("waiting", busy && Boolean(questions.dance));

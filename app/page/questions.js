@@ -170,12 +170,16 @@ export class Questions {
     }
     const body = this.checkBody(request);
     const { start_clock: clock, begin_clock: begins, ...course } = body;
-    if (this.#isNew("course", course)) this.#askCourse({ ...course, breaches: true }, drawing);
-    if (!this.#isNew("contact", body)) return;
+    const [isOtherCourse, isOther] = [this.#isNew("course", course), this.#isNew("contact", body)];
     // Questions about the former dance would delay the verdict on the new one.
-    this.service.drop(AT_REST);
-    for (const channel of AT_REST) this.#latest.delete(channel);
-    this.#askContact(request);
+    if (isOther) this.service.drop(AT_REST);
+    if (isOther) for (const channel of AT_REST) this.#latest.delete(channel);
+    const verdict = isOther ? this.#askContact(request) : true;
+    if (!isOtherCourse) return;
+    const ask = (isAnswered) => isAnswered && this.#askCourse({ ...course, breaches: true }, drawing);
+    // While a hand drags, the verdict comes first: both at once would each take as long as one after the other.
+    if (this.isHeld()) Promise.resolve(verdict).then(ask);
+    else ask(true);
   }
 
   /** The dance that the present drawing describes. */
@@ -243,20 +247,22 @@ export class Questions {
     return new Map(ABOUT_NUMBERS.flatMap((channel) => this.refusals.get(channel)?.errors ?? []).map((error) => [nameOf(error), error]));
   }
 
+  /** Ask about the first contact; false if a newer question took the place of this one. */
   async #askContact(request) {
     if (request.kind === "spiral") {
       const question = fitsQuery(request) ? { query: { ...request.query, ...QUICK } } : { body: { ...this.checkBody(request), ...QUICK } };
       const answer = await this.#answer("contact", "collision-time", question);
       if (answer) this.#accept({ ...request, answer, begin: 0, end: lastInstant(answer) });
-      return;
+      return answer !== undefined;
     }
     const isRoute = request.kind === "route";
     const report = await this.#answer("contact", "check", { body: { ...this.checkBody(request), ...(isRoute ? VERDICT : QUICK) } });
-    if (!report) return;
+    if (!report) return report !== undefined;
     const { failures, verdict, sentences, start: begin, stop, first_contact: first } = report;
     const answer = { ...first, end: isRoute && first.time === null ? { reason: "path", time: stop } : null };
     const last = isRoute ? stop - BEFORE_END : stop;
     this.#accept({ ...request, answer, begin, end: answer.time ?? last, ...(isRoute ? { failures, verdict, sentences } : { report }) });
+    return true;
   }
 
   #accept(dance) {
@@ -421,7 +427,7 @@ export class Questions {
     return true;
   }
 
-  /** The answer; undefined if it was refused or superseded. question: with `request`, which is of the page alone */
+  /** The answer; null if it was refused, undefined if superseded. question: with `request`, which is of the page alone */
   async #answer(channel, path, /** @type {any} */ { request, ...question }) {
     try {
       const answer = await this.service.ask(channel, path, question);
@@ -432,6 +438,7 @@ export class Questions {
       if (!(error instanceof Problem)) throw error;
       this.refusals.set(channel, error);
       this.tell("refused");
+      return null;
     }
   }
 }

@@ -13,7 +13,7 @@ from app.wire.fields import Answer, Margin, SpeedLimit, Strays, measure
 from app.wire.question import Question, Terms
 from app.wire.readings import bench_words
 from core.breaches import AreaGap as Gap
-from core.breaches import BreachKind, area_gaps, breaches
+from core.breaches import BreachKind, breaches_and_gaps
 from core.language import say
 from core.proposal.answer import told_apart
 
@@ -101,13 +101,11 @@ def _at_samples(request: CourseRequest, terms: Terms) -> tuple[list[Breach] | No
         dance.span(request.start, request.stop)
     except core.InvalidValue:
         return None, None
-    room: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray()}
-    limits = room | {"speed_limit": request.speed_limit}
+    limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
     span: dict[str, Any] = {"start": request.start, "stop": request.stop, "budget": terms.budget}
-    venue = request.to_place(dance.dragon).venue
-    result = breaches(dance, venue, **span, **limits)
-    gaps = None if venue is None else [AreaGap.from_result(one) for one in area_gaps(dance, venue, **span, **room)]
-    return [Breach.from_result(one, points=one.points.tolist()) for one in result], gaps
+    broken, gaps = breaches_and_gaps(dance, request.to_place(dance.dragon).venue, **span, **limits)
+    near = None if gaps is None else [AreaGap.from_result(one) for one in gaps]
+    return [Breach.from_result(one, points=one.points.tolist()) for one in broken], near
 
 
 def _cost(request: CourseRequest) -> float:
