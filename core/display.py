@@ -114,15 +114,18 @@ def meanings(kind: Any) -> dict[str, Meaning]:
     Its docstring says it once for all readers, the service's description among them: after the first paragraph each
     field has a line `name: words [unit]`, continued by indented lines. A property says it in its own first line.
     """
-    result: dict[str, Meaning] = {}
-    for base in reversed(kind.__mro__):
-        properties = {name: one.__doc__ for name, one in vars(base).items() if isinstance(one, property)}
-        texts = {name: inspect.cleandoc(text) for name, text in properties.items() if text}
-        lines = [f"{name}: {text.partition(chr(10))[0].removesuffix('.')}" for name, text in texts.items()]
-        own = inspect.cleandoc(base.__doc__ or "").partition("\n\n")[2]
-        lines += re.sub(r"\n {4}", " ", own).split("\n")
-        result |= {one["name"]: Meaning(one["words"], one["unit"] or "") for one in map(ENTRY.fullmatch, lines) if one}
-    return result
+    return {name: one for base in reversed(kind.__mro__) for name, one in _own_meanings(base).items()}
+
+
+@cache
+def _own_meanings(base: Any) -> dict[str, Meaning]:
+    """What a class says itself, without those that it is based on."""
+    properties = {name: one.__doc__ for name, one in vars(base).items() if isinstance(one, property)}
+    texts = {name: inspect.cleandoc(text) for name, text in properties.items() if text}
+    lines = [f"{name}: {text.partition(chr(10))[0].removesuffix('.')}" for name, text in texts.items()]
+    own = inspect.cleandoc(base.__doc__ or "").partition("\n\n")[2]
+    lines += re.sub(r"\n {4}", " ", own).split("\n")
+    return {one["name"]: Meaning(one["words"], one["unit"] or "") for one in map(ENTRY.fullmatch, lines) if one}
 
 
 def display(value: object, unit: str = "", digits: int = LINE_DIGITS) -> str:

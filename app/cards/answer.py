@@ -16,109 +16,158 @@ from core.people.cards import CUES_MOST, Card
 
 
 class Neighbour(Answer):
-    """Another bench."""
+    """Another bench.
 
-    bench: int = Field(description="Its number; 0 is the head")
-    name: str = Field(description="Its name; empty without one")
+    bench: its number; 0 is the head
+    name: its name; empty without one
+    """
+
+    bench: int
+    name: str
 
 
 class Stand(Answer):
-    """A bench at one moment."""
+    """A bench at one moment.
+
+    clock: time of day then, if start_clock or begin_clock is given
+    x: x of its front handle [m]
+    y: y of its front handle [m]
+    heading: direction from its rear to its front handle [rad]
+    mark: the nearest chalk mark along the path, by its length from mark 0 [m]
+    past_mark: way along the path from that mark to the front handle; below zero: before it [m]
+    steps: the same in whole steps
+    """
 
     time: float = measure("s")
-    clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
-    x: float = measure("m", "x of its front handle")
-    y: float = measure("m", "y of its front handle")
-    heading: float = measure("rad", "Direction from its rear to its front handle")
-    mark: float = measure("m", "The nearest chalk mark along the path, by its length from mark 0")
-    past_mark: float = measure("m", "Way along the path from that mark to the front handle; below zero: before it")
-    steps: int = Field(description="The same in whole steps")
+    clock: str | None
+    x: float
+    y: float
+    heading: float
+    mark: float
+    past_mark: float
+    steps: int
 
 
 class Meeting(Answer):
     """Another bench comes abreast, or nearest without that, with no bench between.
-    Abreast: its middle is straight to one side of the own middle."""
+    Abreast: its middle is straight to one side of the own middle.
 
-    time: float = measure(
-        "s", "When the other middle is abreast, to within 1e-9 m along the own bench; or when the benches are nearest"
-    )
-    clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
-    bench: int = Field(description="The other bench; 0 is the head")
-    name: str = Field(description="Its name; empty without one")
-    side: facts.Side = Field(description="Side on which it is, seen in the direction of the front handle")
-    gap: float = measure(
-        "m",
-        "Gap of the two benches then, edge to edge; at another moment it may be less; below zero: minus the depth of "
-        "the overlap",
-    )
-    ahead: float = measure(
-        "m", "How far the other middle is ahead then, along the own bench; below zero: behind; 0: abreast"
-    )
-    oncoming: bool = Field(description="True if it points the other way than the own bench; false if the same way")
-    x: float = measure("m", "x of the own middle then")
-    y: float = measure("m", "y of the own middle then")
+    time: when the other middle is abreast, to within 1e-9 m along the own bench; or when the benches are nearest [s]
+    clock: time of day then, if start_clock or begin_clock is given
+    bench: the other bench; 0 is the head
+    name: its name; empty without one
+    side: side on which it is, seen in the direction of the front handle
+    gap: gap of the two benches then, edge to edge; at another moment it may be less; below zero: minus the depth of the
+        overlap [m]
+    ahead: how far the other middle is ahead then, along the own bench; below zero: behind; 0: abreast [m]
+    oncoming: true if it points the other way than the own bench; false if the same way
+    x: x of the own middle then [m]
+    y: y of the own middle then [m]
+    """
+
+    time: float
+    clock: str | None
+    bench: int
+    name: str
+    side: facts.Side
+    gap: float
+    ahead: float
+    oncoming: bool
+    x: float
+    y: float
 
 
 class Fastest(Answer):
-    """The moment at which a bench is fastest."""
+    """The moment at which a bench is fastest.
+
+    speed: higher speed of its two handles: reached then, and not exceeded every 0.25 m of head way [m/s]
+    speed_ratio: the same over the speed with which the head begins to walk
+    handle: the handle: the number of the bench, or one more for its rear one
+    x: x of that handle then [m]
+    y: y of that handle then [m]
+    """
 
     time: float = measure("s")
-    speed: float = measure(
-        "m/s", "Higher speed of its two handles: reached then, and not exceeded every 0.25 m of head way"
-    )
-    speed_ratio: float = Field(description="The same over the speed with which the head begins to walk")
-    handle: int = Field(description="The handle: the number of the bench, or one more for its rear one")
-    x: float = measure("m", "x of that handle then")
-    y: float = measure("m", "y of that handle then")
+    speed: float
+    speed_ratio: float
+    handle: int
+    x: float
+    y: float
 
 
 class Cue(Answer):
-    """One cue of a card."""
+    """One cue of a card.
+
+    time: moment of the cue: of several meetings, that of the nearest [s]
+    clock: time of day then, if start_clock or begin_clock is given
+    count: nearest beat of the music then, such as 17.3 for the third of bar 17; null: none
+    since: beginning of a pause or a turn, or moment of the first of several meetings; else the same as time [s]
+    until: end of a pause or a turn, or moment of the last of several meetings; else the same as time [s]
+    x: x of the bench: of the front handle, in a meeting of the middle, or of the fastest handle [m]
+    y: y of the same point [m]
+    angle: angle of a turn, to the left above zero; null in another kind of cue [rad]
+    nearest: the meeting, or the nearest of several; null in another kind of cue
+    others: all benches met in this cue, in order of time; none in another kind of cue
+    words: the cue in one sentence, in the language of the request
+    """
 
     kind: rule.CueKind = Field(description="begin, turn, pause, fastest, meeting or done")
-    time: float = measure("s", "Moment of the cue: of several meetings, that of the nearest")
-    clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
-    count: str | None = Field(
-        description="Nearest beat of the music then, such as 17.3 for the third of bar 17; null: none"
-    )
-    since: float = measure(
-        "s", "Beginning of a pause or a turn, or moment of the first of several meetings; else the same as time"
-    )
-    until: float = measure(
-        "s", "End of a pause or a turn, or moment of the last of several meetings; else the same as time"
-    )
-    x: float = measure("m", "x of the bench: of the front handle, in a meeting of the middle, or of the fastest handle")
-    y: float = measure("m", "y of the same point")
-    angle: float | None = measure("rad", "Angle of a turn, to the left above zero; null in another kind of cue")
-    nearest: Meeting | None = Field(description="The meeting, or the nearest of several; null in another kind of cue")
-    others: list[int] = Field(description="All benches met in this cue, in order of time; none in another kind of cue")
-    words: str = Field(description="The cue in one sentence, in the language of the request")
+    time: float
+    clock: str | None
+    count: str | None
+    since: float
+    until: float
+    x: float
+    y: float
+    angle: float | None
+    nearest: Meeting | None
+    others: list[int]
+    words: str
 
 
 class CueCard(Answer):
-    """What the carriers of one bench have to know."""
+    """What the carriers of one bench have to know.
 
-    bench: int = Field(description="Number of the bench; 0 is the head")
-    name: str = Field(description="Its name; empty without one")
-    ahead: Neighbour | None = Field(description="The bench before it; null for the head")
-    behind: Neighbour | None = Field(description="The bench behind it; null for the tail")
-    start: Stand = Field(description="Where it stands when the dance starts")
-    begin: Stand = Field(description="When it begins to walk")
-    direction: float = measure("rad", "Direction in which its front handle begins to walk, from the x axis")
+    bench: number of the bench; 0 is the head
+    name: its name; empty without one
+    ahead: the bench before it; null for the head
+    behind: the bench behind it; null for the tail
+    start: where it stands when the dance starts
+    begin: when it begins to walk
+    direction: direction in which its front handle begins to walk, from the x axis [rad]
+    left_out: cues that have no place on the card
+    least_left_out: least gap of all meetings left out, each at its moment; null: none is [m]
+    meetings: all meetings within the reach, in order of time
+    fastest: when it is fastest
+    done: when and where it stops for good
+    place: where its carriers stand at the start, in one sentence
+    beside: who is before and behind it, in words
+    """
+
+    bench: int
+    name: str
+    ahead: Neighbour | None
+    behind: Neighbour | None
+    start: Stand
+    begin: Stand
+    direction: float
     cues: list[Cue] = Field(description=f"At most {CUES_MOST} cues in order of time, as on the card")
-    left_out: int = Field(description="Cues that have no place on the card")
-    least_left_out: float | None = measure("m", "Least gap of all meetings left out, each at its moment; null: none is")
-    meetings: list[Meeting] = Field(description="All meetings within the reach, in order of time")
-    fastest: Fastest = Field(description="When it is fastest")
-    done: Stand = Field(description="When and where it stops for good")
-    place: str = Field(description="Where its carriers stand at the start, in one sentence")
-    beside: str = Field(description="Who is before and behind it, in words")
+    left_out: int
+    least_left_out: float | None
+    meetings: list[Meeting]
+    fastest: Fastest
+    done: Stand
+    place: str
+    beside: str
 
 
 class Cues(Answer):
-    """The cue cards of a dance."""
+    """The cue cards of a dance.
 
-    cards: list[CueCard] = Field(description="A card for each bench that was asked for, in order")
+    cards: a card for each bench that was asked for, in order
+    """
+
+    cards: list[CueCard]
 
     @classmethod
     def of(cls, cards: list[Card], words: CardWords) -> Self:
@@ -126,37 +175,48 @@ class Cues(Answer):
 
 
 class DragonMeeting(Meeting):
-    """A bench of one of several dragons comes abreast."""
+    """A bench of one of several dragons comes abreast.
 
-    dragon: int = Field(description="The dragon of the other bench, in the order of the dances")
-    dragon_name: str = Field(description="Its name, or its number in words")
+    dragon: the dragon of the other bench, in the order of the dances
+    dragon_name: its name, or its number in words
+    """
+
+    dragon: int
+    dragon_name: str
 
 
 class DragonCue(Cue):
-    """One cue of a card of one of several dragons."""
+    """One cue of a card of one of several dragons.
 
-    nearest: DragonMeeting | None = Field(
-        description="The meeting, or the nearest of several, all with benches of one dragon; null in another kind"
-    )
+    nearest: the meeting, or the nearest of several, all with benches of one dragon; null in another kind
+    """
+
+    nearest: DragonMeeting | None
 
 
 class DragonCueCard(CueCard):
-    """What the carriers of one bench of one of several dragons have to know; times are those of the performance."""
+    """What the carriers of one bench of one of several dragons have to know; times are those of the performance.
 
-    dragon: int = Field(description="The dragon, in the order of the dances")
-    dragon_name: str = Field(description="Its name, or its number in words")
+    dragon: the dragon, in the order of the dances
+    dragon_name: its name, or its number in words
+    meetings: all meetings within the reach, with benches of any dragon, in order of time
+    """
+
+    dragon: int
+    dragon_name: str
     cues: list[DragonCue] = Field(  # type: ignore[assignment]
         description=f"At most {CUES_MOST} cues in order of time, as on the card"
     )
-    meetings: list[DragonMeeting] = Field(  # type: ignore[assignment]
-        description="All meetings within the reach, with benches of any dragon, in order of time"
-    )
+    meetings: list[DragonMeeting]  # type: ignore[assignment]
 
 
 class PerformanceCues(Answer):
-    """The cue cards of several dragons."""
+    """The cue cards of several dragons.
 
-    cards: list[DragonCueCard] = Field(description="A card for each bench that was asked for, dragon by dragon")
+    cards: a card for each bench that was asked for, dragon by dragon
+    """
+
+    cards: list[DragonCueCard]
 
     @classmethod
     def together(cls, decks: Iterable[tuple[list[Card], CardWords]]) -> Self:

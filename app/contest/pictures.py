@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from enum import StrEnum
 
 import numpy as np
-from pydantic import Field
 
 import core
 from app.wire.answers import Point
-from app.wire.fields import Answer, measure
+from app.wire.fields import Answer
 from core import Budget, Dance, Dragon, bench_outlines
 from core.language import say
 from core.values import Floats
@@ -43,18 +42,27 @@ class Role(StrEnum):
 
 
 class Stroke(Answer):
-    """One line of a picture."""
+    """One line of a picture.
 
-    role: Role = Field(description="What it is")
-    points: list[Point] = measure("m or 1", "Its points, x and y: of a map in m, of a curve in the units of its axes")
+    role: what it is
+    points: its points, x and y: of a map in m, of a curve in the units of its axes [m or 1]
+    """
+
+    role: Role
+    points: list[Point]
 
 
 class Picture(Answer):
-    """A picture of an answer, as lines."""
+    """A picture of an answer, as lines.
 
-    words: str = Field(description="What it shows")
-    equal: bool = Field(description="Whether it is a map, with one scale for x and y; else a curve")
-    strokes: list[Stroke] = Field(description="Its lines, from the back to the front")
+    words: what it shows
+    equal: whether it is a map, with one scale for x and y; else a curve
+    strokes: its lines, from the back to the front
+    """
+
+    words: str
+    equal: bool
+    strokes: list[Stroke]
 
 
 def _stroke(role: Role, points: Floats | Sequence[tuple[float, float]]) -> Stroke:

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any, Self
 
 import orjson
-from pydantic import Field
 
 from app.files.markup import states_encoding
 from app.maps import dxf, geojson, gpx, kml
@@ -54,33 +53,35 @@ MARKS_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 class DrawnLayer(Answer):
-    """A layer of a DXF or GeoJSON on which something is drawn that is read."""
+    """A layer of a DXF or GeoJSON on which something is drawn that is read.
 
-    name: str = Field(description="Its name")
-    edges: int = Field(
-        description="Edges of what is drawn on it, where trees and walls have those of outlines; a venue may have 2,000"
-    )
+    name: its name
+    edges: edges of what is drawn on it, where trees and walls have those of outlines; a venue may have 2,000
+    """
+
+    name: str
+    edges: int
 
 
 class Places(Answer):
-    """The parts of a dance in a map."""
+    """The parts of a dance in a map.
 
-    path: dict[str, Any] | None = Field(description="Path in the form of a request; null: the file has none")
-    venue: dict[str, Any] | None = Field(
-        description="Square and obstacles in the form of a request: GeoJSON in metres, the square first; its member "
-        "`origin` is the place of x = y = 0, and `grid` the same on a survey grid, if known; null: the file has none"
-    )
-    dance: dict[str, Any] | None = Field(
-        description="Other fields of a file that describes a dance, unchanged; null: the file is a map"
-    )
-    passages: list[dict[str, Any]] | None = Field(
-        description="Speeds at which a track was walked, from its first time on, in the form of a request; null: the "
-        "path is no track, or has no times"
-    )
-    notes: list[str] = Field(description="Assumptions, and things left out, in sentences")
-    layers: list[DrawnLayer] | None = Field(
-        None, description="The layers of a drawing, if only_layers asks for them, and nothing else then; else null"
-    )
+    path: path in the form of a request; null: the file has none
+    venue: square and obstacles in the form of a request: GeoJSON in metres, the square first; its member `origin` is
+        the place of x = y = 0, and `grid` the same on a survey grid, if known; null: the file has none
+    dance: other fields of a file that describes a dance, unchanged; null: the file is a map
+    passages: speeds at which a track was walked, from its first time on, in the form of a request; null: the path is no
+        track, or has no times
+    notes: assumptions, and things left out, in sentences
+    layers: the layers of a drawing, if only_layers asks for them, and nothing else then; else null
+    """
+
+    path: dict[str, Any] | None
+    venue: dict[str, Any] | None
+    dance: dict[str, Any] | None
+    passages: list[dict[str, Any]] | None
+    notes: list[str]
+    layers: list[DrawnLayer] | None = None
 
     @classmethod
     def of(cls, parts: DanceParts) -> Self:

@@ -20,46 +20,74 @@ from core.values import Floats
 
 
 class Assumption(Answer):
-    """One value that the sheet rests on."""
+    """One value that the sheet rests on.
 
-    label: str = Field(description="What it is, in the language asked for")
-    text: str = Field(description="The value with its unit")
-    yours: bool = Field(description="True: the request sets it; false: it is assumed, or is the default")
+    label: what it is, in the language asked for
+    text: the value with its unit
+    yours: True: the request sets it; false: it is assumed, or is the default
+    """
+
+    label: str
+    text: str
+    yours: bool
 
 
 class Approach(Answer):
-    """How near a bench comes to another one, or to an edge of the venue, with everybody in place."""
+    """How near a bench comes to another one, or to an edge of the venue, with everybody in place.
 
-    distance: float = measure("m", "Smallest distance found")
-    at_least: float | None = measure("m", "Proven lower bound; null: none was proven")
-    time: float = measure("s", "Time of the smallest distance")
-    dragons: list[int] = Field(description="The dragon of each of these benches, in the order of the dances")
-    benches: list[int] = Field(description="The two benches, or the one that comes near the edge")
-    area: str | None = Field(description="Name of the area; null for two benches")
-    point: Point = measure("m", "Place: of the bench's point, or between both benches, x and y")
-    sentence: str = Field(description="The same in a sentence")
+    distance: smallest distance found [m]
+    at_least: proven lower bound; null: none was proven [m]
+    time: time of the smallest distance [s]
+    dragons: the dragon of each of these benches, in the order of the dances
+    benches: the two benches, or the one that comes near the edge
+    area: name of the area; null for two benches
+    point: Place: of the bench's point, or between both benches, x and y [m]
+    sentence: the same in a sentence
+    """
+
+    distance: float
+    at_least: float | None
+    time: float
+    dragons: list[int]
+    benches: list[int]
+    area: str | None
+    point: Point
+    sentence: str
 
 
 class Ground(Answer):
-    """Ground as polygons."""
+    """Ground as polygons.
 
-    ground: Polygon | MultiPolygon = Field(description="GeoJSON geometry in metres")
-    area: float = measure("m2", "Area of it")
-    excess: float = measure("m", "Proven: no point of it is further than this beyond what it has to hold")
+    ground: geoJSON geometry in metres
+    area: area of it [m2]
+    excess: Proven: no point of it is further than this beyond what it has to hold [m]
+    """
+
+    ground: Polygon | MultiPolygon
+    area: float
+    excess: float
 
 
 class LooseTail(Ground):
-    """The ground that the last benches can reach when they are let go."""
+    """The ground that the last benches can reach when they are let go.
 
-    benches: int = Field(description="Number of loose benches, the last ones of each dragon")
-    reach: float = measure("m", "Furthest that they come from the handle that still follows the path")
-    beyond_spectators: bool = Field(description="True: they can reach people who stand where these may")
+    benches: number of loose benches, the last ones of each dragon
+    reach: furthest that they come from the handle that still follows the path [m]
+    beyond_spectators: True: they can reach people who stand where these may
+    """
+
+    benches: int
+    reach: float
+    beyond_spectators: bool
 
 
 class LaneStay(Answer, of=core.Stay, leave=()):
-    """A time during which benches of one dragon are in a lane."""
+    """A time during which benches of one dragon are in a lane.
 
-    dragon: int = Field(description="The dragon, in the order of the dances")
+    dragon: the dragon, in the order of the dances
+    """
+
+    dragon: int
     begin: float
     end: float
 
@@ -96,30 +124,40 @@ class LaneBody(Wire, strict=True):
 
 
 class Lane(Answer):
-    """A lane to keep free."""
+    """A lane to keep free.
 
-    name: str = Field(description="Its name")
-    width: float = measure("m", "Its width")
-    free_width: float = measure(
-        "m",
-        "Proven: a strip of this width is never swept, all along it, around its middle line or along one of its sides; "
-        "0: none is known",
-    )
-    stays: list[LaneStay] = Field(
-        description="Times at which benches are in it, those of people who stray included, dragon by dragon"
-    )
-    total: float = measure("s", "Time during which any bench is in it")
-    in_loose_reach: bool = Field(description="The last benches can reach it when they are let go")
+    name: its name
+    width: its width [m]
+    free_width: Proven: a strip of this width is never swept, all along it, around its middle line or along one of its
+        sides; 0: none is known [m]
+    stays: times at which benches are in it, those of people who stray included, dragon by dragon
+    total: time during which any bench is in it [s]
+    in_loose_reach: the last benches can reach it when they are let go
+    """
+
+    name: str
+    width: float
+    free_width: float
+    stays: list[LaneStay]
+    total: float
+    in_loose_reach: bool
 
 
 class GatePass(Answer):
-    """One pass of a dragon through a gate."""
+    """One pass of a dragon through a gate.
 
-    dragon: int = Field(description="The dragon, in the order of the dances")
-    name: str = Field(description="Name of the gate")
-    head: float | None = measure("s", "Time at which the head passes it; null: not in this time")
-    tail: float | None = measure("s", "Time at which the tail passes it; null: not in this time")
-    lasts: float | None = measure("s", "From head to tail; null where one of these is missing")
+    dragon: the dragon, in the order of the dances
+    name: name of the gate
+    head: time at which the head passes it; null: not in this time [s]
+    tail: time at which the tail passes it; null: not in this time [s]
+    lasts: from head to tail; null where one of these is missing [s]
+    """
+
+    dragon: int
+    name: str
+    head: float | None
+    tail: float | None
+    lasts: float | None
 
     @classmethod
     def between(cls, dragon: int, name: str, head: float | None, tail: float | None) -> Self:
@@ -128,40 +166,59 @@ class GatePass(Answer):
 
 
 class FastestCarriers(Answer, of=core.HighestSpeed):
-    """The fastest carriers."""
+    """The fastest carriers.
 
-    dragon: int = Field(description="Their dragon, in the order of the dances")
+    dragon: their dragon, in the order of the dances
+    at_most: proven upper bound; null: none was proven [m/s]
+    point: place of the first of them, x and y [m]
+    """
+
+    dragon: int
     speed: float
-    at_most: float | None = measure("m/s", "Proven upper bound; null: none was proven")
+    at_most: float | None
     time: float
     handles: list[int]
-    point: Point = measure("m", "Place of the first of them, x and y")
+    point: Point
 
 
 class Stopping(Answer):
-    """How far the dance goes on after the call to stop."""
+    """How far the dance goes on after the call to stop.
 
-    reaction: float = measure("s", "Time until everybody stands")
-    distance: float = measure("m", "Furthest that anybody goes on in that time, at the highest speed")
+    reaction: time until everybody stands [s]
+    distance: furthest that anybody goes on in that time, at the highest speed [m]
+    """
+
+    reaction: float
+    distance: float
 
 
 class SafetySheet(Answer):
-    """What whoever permits a festival asks for. Nothing is proven for a dance that is danced otherwise."""
+    """What whoever permits a festival asks for. Nothing is proven for a dance that is danced otherwise.
+
+    sentences: the verdict, and how it is known, in two sentences for a layman
+    start: start of the time judged [s]
+    stop: end of the time judged [s]
+    assumptions: what it rests on
+    approaches: the nearest approaches, nearest first
+    swept: the ground that benches sweep with everybody in place
+    spectators: ground to keep people out of, GeoJSON in metres: swept ground, stray, and the distance asked for
+    loose_tail: the ground that the last benches can reach when they are let go
+    lanes: the lanes to keep free, in the order of the request
+    gates: passes of the gates, dragon by dragon in the order of its path
+    fastest: the fastest carriers; null in a run to a fold, without a bound
+    stopping: how far it goes on after the call to stop; null without a speed
+    """
 
     verdict: Judgement = Field(description="passes, fails or undecided, as /check says it")
-    sentences: list[str] = Field(description="The verdict, and how it is known, in two sentences for a layman")
-    start: float = measure("s", "Start of the time judged")
-    stop: float = measure("s", "End of the time judged")
-    assumptions: list[Assumption] = Field(description="What it rests on")
-    approaches: list[Approach] = Field(description="The nearest approaches, nearest first")
-    swept: Ground = Field(description="The ground that benches sweep with everybody in place")
-    spectators: Polygon | MultiPolygon = Field(
-        description="Ground to keep people out of, GeoJSON in metres: swept ground, stray, and the distance asked for"
-    )
-    loose_tail: LooseTail = Field(description="The ground that the last benches can reach when they are let go")
-    lanes: list[Lane] = Field(description="The lanes to keep free, in the order of the request")
-    gates: list[GatePass] = Field(description="Passes of the gates, dragon by dragon in the order of its path")
-    fastest: FastestCarriers | None = Field(
-        description="The fastest carriers; null in a run to a fold, without a bound"
-    )
-    stopping: Stopping | None = Field(description="How far it goes on after the call to stop; null without a speed")
+    sentences: list[str]
+    start: float
+    stop: float
+    assumptions: list[Assumption]
+    approaches: list[Approach]
+    swept: Ground
+    spectators: Polygon | MultiPolygon
+    loose_tail: LooseTail
+    lanes: list[Lane]
+    gates: list[GatePass]
+    fastest: FastestCarriers | None
+    stopping: Stopping | None

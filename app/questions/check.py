@@ -73,9 +73,12 @@ class AreaClearance(Answer, of=core.AreaClearance, leave=()):
 
 
 class VenueClearance(Answer, of=core.VenueClearance, leave=()):
-    """Distances between the benches and the venue."""
+    """Distances between the benches and the venue.
 
-    stray: core.Misplaced | None = Field(description="The same as misplaced, under its former name")
+    stray: the same as misplaced, under its former name
+    """
+
+    stray: core.Misplaced | None
     areas: list[AreaClearance]
 
 
@@ -90,15 +93,20 @@ class HighestSpeed(Answer, of=core.HighestSpeed, leave=()):
 
 
 class Failure(Answer, of=core.Failure, leave=()):
-    """One failed or undecided condition."""
+    """One failed or undecided condition.
+
+    names: names of these benches, empty for one without; none where no bench has any
+    clock: time of day of that time, if start_clock or begin_clock is given
+    sentence: the same for people: without its time, and with benches as they are called
+    """
 
     kind: core.FailureKind
     time: float
     area: str | None
-    names: list[str] = Field(description="Names of these benches, empty for one without; none where no bench has any")
-    clock: str | None = Field(description="Time of day of that time, if start_clock or begin_clock is given")
+    names: list[str]
+    clock: str | None
     message: str
-    sentence: str = Field(description="The same for people: without its time, and with benches as they are called")
+    sentence: str
     time_bracket: Point | None
 
     @classmethod
@@ -111,14 +119,23 @@ class Failure(Answer, of=core.Failure, leave=()):
 
 
 class Origin(Answer):
-    """A place on earth."""
+    """A place on earth.
 
-    longitude: float = measure("degrees", "Longitude, east positive")
-    latitude: float = measure("degrees", "Latitude, north positive")
+    longitude: longitude, east positive [degrees]
+    latitude: latitude, north positive [degrees]
+    """
+
+    longitude: float
+    latitude: float
 
 
 class Report(Answer, of=core.Report, leave=()):
-    """Verdict on the dance, which stops at a contact or a fold."""
+    """Verdict on the dance, which stops at a contact or a fold.
+
+    begins: time of day at start, if start_clock or begin_clock is given
+    ends: time of day at stop, if start_clock or begin_clock is given
+    origin: place of x = y = 0; null unless the venue was given in degrees or states it
+    """
 
     verdict: core.Judgement
     passed: bool
@@ -131,11 +148,9 @@ class Report(Answer, of=core.Report, leave=()):
     highest_speed: HighestSpeed | None
     sharpest_bend: core.SharpestBend | None
     sentences: list[str] = SENTENCES
-    begins: str | None = Field(description="Time of day at start, if start_clock or begin_clock is given")
-    ends: str | None = Field(description="Time of day at stop, if start_clock or begin_clock is given")
-    origin: Origin | None = Field(
-        description="Place of x = y = 0; null unless the venue was given in degrees or states it"
-    )
+    begins: str | None
+    ends: str | None
+    origin: Origin | None
 
     @classmethod
     def of(cls, result: core.Report, request: DanceCheck, terms: Terms, place: Place, clock: str | None) -> Self:
@@ -163,10 +178,13 @@ class Report(Answer, of=core.Report, leave=()):
 
 
 class DragonFailure(Failure, of=core.PerformanceFailure):
-    """One failed or undecided condition of a dragon, or of two together; times are those of the performance."""
+    """One failed or undecided condition of a dragon, or of two together; times are those of the performance.
+
+    dragon_names: their names; null for a dragon without one
+    """
 
     dragons: list[int]
-    dragon_names: list[str | None] = Field(description="Their names; null for a dragon without one")
+    dragon_names: list[str | None]
 
     @classmethod
     def in_performance(
@@ -207,25 +225,27 @@ class DragonsClearance(DragonPair, of=core.PerformanceLeastClearance):
 
 
 class PerformanceReport(Answer, of=core.PerformanceReport, leave=("performance",)):
-    """Verdict on several dances on one clock."""
+    """Verdict on several dances on one clock.
+
+    names: names of the dragons, null for one without, in the order of the dances
+    begins: time of day at start, if start_clock or begin_clock is given
+    ends: time of day at stop, if start_clock or begin_clock is given
+    origin: place of x = y = 0; null unless the venue was given in degrees or states it
+    """
 
     verdict: core.Judgement
     passed: bool
     failures: list[DragonFailure]
     start: float
     stop: float
-    names: list[str | None] = Field(
-        description="Names of the dragons, null for one without, in the order of the dances"
-    )
+    names: list[str | None]
     encounter: Encounter
     least_clearance: DragonsClearance | None
     reports: list[Report | None]
     sentences: list[str] = SENTENCES
-    begins: str | None = Field(description="Time of day at start, if start_clock or begin_clock is given")
-    ends: str | None = Field(description="Time of day at stop, if start_clock or begin_clock is given")
-    origin: Origin | None = Field(
-        description="Place of x = y = 0; null unless the venue was given in degrees or states it"
-    )
+    begins: str | None
+    ends: str | None
+    origin: Origin | None
 
     @classmethod
     def of(cls, result: core.PerformanceReport, request: CheckRequest, terms: Terms, place: Place) -> Self:

@@ -13,7 +13,7 @@ from app.files.workbooks import table_workbook
 from app.grade.class_table import ClassRow, names_beside, points_of, remarks, rubric_of, rubric_text, team_points
 from app.grade.judged import Rating
 from app.grade.words import word
-from app.wire.fields import Answer, OneLine, Whole, Wire, measure
+from app.wire.fields import Answer, OneLine, Whole, Wire
 from app.wire.question import JSON, Question, Terms
 from app.wire.texts import text_to_cell
 
@@ -68,16 +68,21 @@ class ClassTableRequest(Wire, strict=True):
 
 
 class ClassTable(Answer):
-    """A class on one table."""
+    """A class on one table.
 
-    heads: list[str] = Field(
-        description="Heads of the columns: team, file, workbook, verdict, cells, right, points, finding, rounded, "
-        "missing, points of the team, files that are alike"
-    )
-    rows: list[list[str | int | float]] = Field(description="A row for each file, in its order")
-    teams: list[list[str | float]] = measure("points", "Each team and its points, the most first")
-    notes: list[str] = Field(description="Remarks, such as that two teams handed in the same file")
-    rubric: str = Field(description="The rubric as a file that a teacher may edit, as CSV")
+    heads: heads of the columns: team, file, workbook, verdict, cells, right, points, finding, rounded, missing, points
+        of the team, files that are alike
+    rows: a row for each file, in its order
+    teams: each team and its points, the most first [points]
+    notes: remarks, such as that two teams handed in the same file
+    rubric: the rubric as a file that a teacher may edit, as CSV
+    """
+
+    heads: list[str]
+    rows: list[list[str | int | float]]
+    teams: list[list[str | float]]
+    notes: list[str]
+    rubric: str
 
 
 COLUMNS = (

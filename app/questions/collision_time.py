@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Self
 
-from pydantic import Field
-
 import core
 from app.wire import evidence
 from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair
@@ -45,7 +43,12 @@ class Certificate(Answer, of=core.Evidence, leave=()):
 
 
 class CollisionTime(Answer, of=core.FirstContact, leave=("dance",)):
-    """First time that two benches that share no handle come within the margin, or touch if it is 0."""
+    """First time that two benches that share no handle come within the margin, or touch if it is 0.
+
+    cross_check: verdicts of the engines 1e-6 m of travel before and after the contact (for a contact at the start: at
+        the start and after it). With a stray they judge the pair at its own distance, and shapely the grounds that all
+        benches may cover; null without a contact or if not requested
+    """
 
     outcome: Outcome
     margin: float
@@ -57,11 +60,7 @@ class CollisionTime(Answer, of=core.FirstContact, leave=("dance",)):
     sentences: list[str] = SENTENCES
     words: evidence.ContactWords | None = evidence.WORDS
     certificate: Certificate
-    cross_check: core.ContactCheck | None = Field(
-        description="Verdicts of the engines 1e-6 m of travel before and after the contact (for a contact at the "
-        "start: at the start and after it). With a stray they judge the pair at its own distance, and shapely the "
-        "grounds that all benches may cover; null without a contact or if not requested"
-    )
+    cross_check: core.ContactCheck | None
 
     @classmethod
     def of(cls, contact: core.FirstContact, request: Contact, terms: Terms) -> Self:

@@ -60,37 +60,47 @@ class ContactProbabilityRequest(Wobbling, SpanOrCircle, DanceFields, strict=True
 
 
 class ContactProbability(Answer):
-    """Probability that two benches that share no handle touch at one of some instants."""
+    """Probability that two benches that share no handle touch at one of some instants.
 
-    probability: float = Field(description="Share of the samples in which two benches touch")
-    limits: tuple[float, float] = Field(description="Limits of the probability of the model, after Clopper and Pearson")
-    confidence: float = Field(description="Probability that it lies between these limits")
-    contacts: int = Field(description="Number of samples in which two benches touch")
-    samples: int = Field(description="Number of samples")
-    time_quantiles: tuple[float, float, float] | None = measure(
-        "s", "Times up to which 5, 50 and 95 % of these contacts have come about; null without a contact"
-    )
-    benches: Pair | None = Field(description="The pair that is most often the first to touch; null without a contact")
-    tolerance: float | None = measure(
-        "m",
-        "Proven: while no hole is further from its place, nothing touches at any time; 0: none is known to be "
-        "safe; null with a pitch error",
-    )
-    strayed: int | None = Field(
-        description="Number of samples in which a hole is further from its place than that before anything touches, or "
-        "when it does; null with a pitch error"
-    )
-    union_bound: float | None = Field(
-        description="Proven without samples: the probability of the model is no larger at these instants; null with "
-        "play or a pitch error"
-    )
-    step: float = measure("s", "Time between two instants; contacts between them are not seen")
-    instants: int = Field(description="Number of instants of each sample")
-    start: float = measure("s", "First instant")
-    stop: float = measure("s", "Last instant")
-    seed: int = Field(description="Seed of the random numbers")
-    method: str = Field(description="The model and its evidence, in sentences")
-    claim: core.ProbabilityClaim = Field(description="The claim as a kind and values")
+    probability: share of the samples in which two benches touch
+    limits: limits of the probability of the model, after Clopper and Pearson
+    confidence: probability that it lies between these limits
+    contacts: number of samples in which two benches touch
+    samples: number of samples
+    time_quantiles: times up to which 5, 50 and 95 % of these contacts have come about; null without a contact [s]
+    benches: the pair that is most often the first to touch; null without a contact
+    tolerance: Proven: while no hole is further from its place, nothing touches at any time; 0: none is known to be
+        safe; null with a pitch error [m]
+    strayed: number of samples in which a hole is further from its place than that before anything touches, or when it
+        does; null with a pitch error
+    union_bound: proven without samples: the probability of the model is no larger at these instants; null with play or
+        a pitch error
+    step: time between two instants; contacts between them are not seen [s]
+    instants: number of instants of each sample
+    start: first instant [s]
+    stop: last instant [s]
+    seed: seed of the random numbers
+    method: the model and its evidence, in sentences
+    claim: the claim as a kind and values
+    """
+
+    probability: float
+    limits: tuple[float, float]
+    confidence: float
+    contacts: int
+    samples: int
+    time_quantiles: tuple[float, float, float] | None
+    benches: Pair | None
+    tolerance: float | None
+    strayed: int | None
+    union_bound: float | None
+    step: float
+    instants: int
+    start: float
+    stop: float
+    seed: int
+    method: str
+    claim: core.ProbabilityClaim
 
 
 def contact_probability(

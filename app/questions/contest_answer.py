@@ -16,7 +16,7 @@ from app.contest.solved import ContestRequest
 from app.grade.limits import EQUAL_TURN, TIGHTER_TURN, WIDER_LENGTH
 from app.grade.shortcuts import UNITS
 from app.wire.answers import SENTENCES
-from app.wire.fields import Answer, Whole, Wire, measure
+from app.wire.fields import Answer, Whole, Wire
 from app.wire.question import Question, Terms
 from app.wire.readings import contact_words, handles_words, pitch_words, turn_words
 from core import Dance, Dragon, InvalidValue, Outcome
@@ -45,43 +45,64 @@ class ContestAnswerQuery(Wire):
 
 
 class Offer(Answer):
-    """A dance that an answer tells of, to be looked at."""
+    """A dance that an answer tells of, to be looked at.
 
-    words: str = Field(description="What the offer does, on a button")
-    path: Literal["spiral", "turn"] = Field(description="Its path")
-    numbers: dict[str, float] = Field(
-        description="What differs from the contest's numbers: fields of a dance; time, the instant to look at [s]; "
-        "and handle, the one to look at"
-    )
+    words: what the offer does, on a button
+    path: its path
+    numbers: what differs from the contest's numbers: fields of a dance; time, the instant to look at [s]; and handle,
+        the one to look at
+    """
+
+    words: str
+    path: Literal["spiral", "turn"]
+    numbers: dict[str, float]
 
 
 class TurnLengths(Answer):
-    """Lengths of turns that leave opposite to where they enter, by ratio and entry."""
+    """Lengths of turns that leave opposite to where they enter, by ratio and entry.
 
-    words: str = Field(description="What the map shows")
-    axes: list[str] = Field(description="Names of the columns and of the rows, with their units")
-    ratios: list[float] = measure("1", "Radius of the first arc over that of the second: the columns")
-    entry_radii: list[float] = measure("m", "Distances of the entry from the centre: the rows")
-    lengths: list[list[float | None]] = measure("m", "A row for each entry; null where the benches cannot dance it")
+    words: what the map shows
+    axes: names of the columns and of the rows, with their units
+    ratios: radius of the first arc over that of the second: the columns [1]
+    entry_radii: distances of the entry from the centre: the rows [m]
+    lengths: a row for each entry; null where the benches cannot dance it [m]
+    """
+
+    words: str
+    axes: list[str]
+    ratios: list[float]
+    entry_radii: list[float]
+    lengths: list[list[float | None]]
 
 
 class ContestAnswer(Answer):
-    """The answer to one of the contest's questions."""
+    """The answer to one of the contest's questions.
 
-    question: int = Field(description="Number of the question")
-    asks: str = Field(description="The question in a sentence")
-    text: str = Field(description="The answer with the digits that the contest asks for, and its unit")
+    question: number of the question
+    asks: the question in a sentence
+    text: the answer with the digits that the contest asks for, and its unit
+    more: what the answer has with `further`, as a question; null if no more
+    picture: a picture of the answer, as lines
+    turns: of question 4 with `further`, lengths of other turns
+    offers: dances that the answer tells of
+    workbook: name of the workbook that the contest asks for; null if it asks for none
+    number: name of the number that POST /grade judges for this question; null if it is all in the workbook
+    unit: unit of that number
+    example: that number as a student may write it; null without one
+    """
+
+    question: int
+    asks: str
+    text: str
     sentences: list[str] = SENTENCES
-    more: str | None = Field(None, description="What the answer has with `further`, as a question; null if no more")
-    picture: Picture = Field(description="A picture of the answer, as lines")
-    turns: TurnLengths | None = Field(None, description="Of question 4 with `further`, lengths of other turns")
-    offers: list[Offer] = Field(description="Dances that the answer tells of")
-    workbook: str | None = Field(description="Name of the workbook that the contest asks for; null if it asks for none")
-    number: str | None = Field(
-        description="Name of the number that POST /grade judges for this question; null if it is all in the workbook"
-    )
-    unit: str | None = Field(None, description="Unit of that number")
-    example: str | None = Field(description="That number as a student may write it; null without one")
+    more: str | None = None
+    picture: Picture
+    turns: TurnLengths | None = None
+    offers: list[Offer]
+    workbook: str | None
+    number: str | None
+    unit: str | None = None
+    example: str | None
 
 
 def contest_answer(request: ContestAnswerQuery, terms: Terms) -> ContestAnswer:

@@ -30,22 +30,29 @@ class CourseRequest(Strays, SpanFields, PlacedDance, strict=True):
 
 
 class TightBend(Answer, of=core.TightBend, leave=()):
-    """A stretch of the path that a bench cannot follow."""
+    """A stretch of the path that a bench cannot follow.
+
+    sentence: the bend in one sentence
+    """
 
     points: list[Point]
-    sentence: str = Field(description="The bend in one sentence")
+    sentence: str
 
 
 class Breach(Answer):
-    """A stretch of the path on which benches break a limit in a sample of the dance."""
+    """A stretch of the path on which benches break a limit in a sample of the dance.
 
-    kind: BreachKind = Field(
-        description="speed: a handle is faster than the limit; margin: a bench comes within the margin of another one "
-        "or of the venue's edges, or stands outside; stray: it may, if people stray"
-    )
-    start: float = measure("m", "Start of the stretch, along the path")
-    end: float = measure("m", "End of the stretch, along the path")
-    points: list[Point] = measure("m", "Points along it, x and y")
+    kind: speed: a handle is faster than the limit; margin: a bench comes within the margin of another one or of the
+        venue's edges, or stands outside; stray: it may, if people stray
+    start: start of the stretch, along the path [m]
+    end: end of the stretch, along the path [m]
+    points: points along it, x and y [m]
+    """
+
+    kind: BreachKind
+    start: float
+    end: float
+    points: list[Point]
 
 
 class AreaGap(Answer, of=Gap, leave=()):
@@ -53,22 +60,24 @@ class AreaGap(Answer, of=Gap, leave=()):
 
 
 class Course(Answer, of=core.Course):
-    """A path as it is drawn, whether or not it can be danced."""
+    """A path as it is drawn, whether or not it can be danced.
+
+    x: p entries [m]
+    y: p entries [m]
+    breaches: stretches on which a limit is broken, at samples of the dance 0.3 m apart: a view, not a verdict, which
+        POST /check gives; null unless asked for, and where the dragon cannot follow the path
+    gaps: least distance of the benches, everybody in place, from the square's border and each obstacle, at the same
+        samples; null as for breaches, and without a venue
+    """
 
     s: list[float]
-    x: list[float] = measure("m", "P entries")
-    y: list[float] = measure("m", "P entries")
+    x: list[float]
+    y: list[float]
     length: float
     knots: list[float]
     bends: list[TightBend]
-    breaches: list[Breach] | None = Field(
-        description="Stretches on which a limit is broken, at samples of the dance 0.3 m apart: a view, not a verdict, "
-        "which POST /check gives; null unless asked for, and where the dragon cannot follow the path"
-    )
-    gaps: list[AreaGap] | None = Field(
-        description="Least distance of the benches, everybody in place, from the square's border and each obstacle, "
-        "at the same samples; null as for breaches, and without a venue"
-    )
+    breaches: list[Breach] | None
+    gaps: list[AreaGap] | None
 
 
 def course(request: CourseRequest, terms: Terms) -> Course:

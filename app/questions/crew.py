@@ -116,78 +116,128 @@ class CrewRequest(CrewFields, Marked, strict=True):
 
 
 class CrewSpell(Answer):
-    """A time in which a person carries a bench."""
+    """A time in which a person carries a bench.
 
-    bench: int = Field(description="The bench; 0 is the head")
-    name: str = Field(description="Its name; empty without one")
+    bench: the bench; 0 is the head
+    name: its name; empty without one
+    begin_clock: time of day then, if start_clock or begin_clock is given
+    end_clock: time of day then
+    way: way of the bench's front handle along the path from begin to end [m]
+    relieves: label of the person who goes out at the begin; null at the start
+    x: x of the bench's front handle at the begin [m]
+    y: y of the same [m]
+    mark: the chalk mark nearest to it along the path, by its length from mark 0 [m]
+    """
+
+    bench: int
+    name: str
     begin: float = measure("s")
-    begin_clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
+    begin_clock: str | None
     end: float = measure("s")
-    end_clock: str | None = Field(description="Time of day then")
-    way: float = measure("m", "Way of the bench's front handle along the path from begin to end")
-    relieves: str | None = Field(description="Label of the person who goes out at the begin; null at the start")
-    x: float = measure("m", "x of the bench's front handle at the begin")
-    y: float = measure("m", "y of the same")
-    mark: float = measure("m", "The chalk mark nearest to it along the path, by its length from mark 0")
+    end_clock: str | None
+    way: float
+    relieves: str | None
+    x: float
+    y: float
+    mark: float
 
 
 class Carrier(Answer):
-    """One person, and all that they carry."""
+    """One person, and all that they carry.
 
-    person: int = Field(description="Number of the person, from 0 on; spares come last")
-    label: str = Field(description="Short name: 17.2 is the second of bench 17 at the start, S3 the third spare")
-    time: float = measure("s", "Time carried in all")
-    way: float = measure("m", "Way carried in all")
-    longest: float = measure("s", "Longest time carried without a break")
-    spells: list[CrewSpell] = Field(description="In order of time")
+    person: number of the person, from 0 on; spares come last
+    label: short name: 17.2 is the second of bench 17 at the start, S3 the third spare
+    time: time carried in all [s]
+    way: way carried in all [m]
+    longest: longest time carried without a break [s]
+    spells: in order of time
+    """
+
+    person: int
+    label: str
+    time: float
+    way: float
+    longest: float
+    spells: list[CrewSpell]
 
 
 class PlaceOfChange(Answer):
-    """A place at which the path passes a point of changes."""
+    """A place at which the path passes a point of changes.
 
-    point: int = Field(description="Index of the point")
-    x: float = measure("m", "x of the place on the path")
-    y: float = measure("m", "y of the same")
-    distance: float = measure("m", "Distance of the place from the point")
-    mark: float = measure("m", "The nearest chalk mark along the path, by its length from mark 0")
+    point: index of the point
+    x: x of the place on the path [m]
+    y: y of the same [m]
+    distance: distance of the place from the point [m]
+    mark: the nearest chalk mark along the path, by its length from mark 0 [m]
+    """
+
+    point: int
+    x: float
+    y: float
+    distance: float
+    mark: float
 
 
 class BenchRoll(Answer):
-    """A bench at one moment, and who carries it."""
+    """A bench at one moment, and who carries it.
 
-    bench: int = Field(description="Its number; 0 is the head")
-    name: str = Field(description="Its name; empty without one")
-    people: list[str] = Field(description="Labels of those who carry it; at a change of those who come in")
-    x: float = measure("m", "x of its front handle")
-    y: float = measure("m", "y of the same")
-    mark: float = measure("m", "The nearest chalk mark along the path, by its length from mark 0")
+    bench: its number; 0 is the head
+    name: its name; empty without one
+    people: labels of those who carry it; at a change of those who come in
+    x: x of its front handle [m]
+    y: y of the same [m]
+    mark: the nearest chalk mark along the path, by its length from mark 0 [m]
+    """
+
+    bench: int
+    name: str
+    people: list[str]
+    x: float
+    y: float
+    mark: float
 
 
 class Roll(Answer):
-    """Who is where at one moment."""
+    """Who is where at one moment.
+
+    clock: time of day then, if start_clock or begin_clock is given
+    benches: all benches, head first
+    resting: labels of those who carry nothing then
+    """
 
     time: float = measure("s")
-    clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
-    benches: list[BenchRoll] = Field(description="All benches, head first")
-    resting: list[str] = Field(description="Labels of those who carry nothing then")
+    clock: str | None
+    benches: list[BenchRoll]
+    resting: list[str]
 
 
 class Crew(Answer):
-    """The people of a dance."""
+    """The people of a dance.
 
-    people: int = Field(description="Number of people, spares among them")
-    spares: int = Field(description="Those among them who carry nothing at the start")
-    start: float = measure("s", "Begin of the first spells")
-    stop: float = measure("s", "End of the last spells")
-    changes: int = Field(description="How many times somebody takes over from somebody")
-    longest: float = measure("s", "Longest time that anybody carries without a break")
-    enough: int = Field(
-        description="Least number of spares with which everybody goes out at every change of their bench; 0: no changes"
-    )
-    unrelieved: list[int] = Field(description="Benches that have changes, and of which nobody ever goes out")
-    places: list[PlaceOfChange] = Field(description="Where the path passes the points, in order of the points")
-    at: Roll | None = Field(description="Who is where at the time asked about; null: none was asked about")
-    carriers: list[Carrier] = Field(description="All people")
+    people: number of people, spares among them
+    spares: those among them who carry nothing at the start
+    start: begin of the first spells [s]
+    stop: end of the last spells [s]
+    changes: how many times somebody takes over from somebody
+    longest: longest time that anybody carries without a break [s]
+    enough: least number of spares with which everybody goes out at every change of their bench; 0: no changes
+    unrelieved: benches that have changes, and of which nobody ever goes out
+    places: where the path passes the points, in order of the points
+    at: who is where at the time asked about; null: none was asked about
+    carriers: all people
+    """
+
+    people: int
+    spares: int
+    start: float
+    stop: float
+    changes: int
+    longest: float
+    enough: int
+    unrelieved: list[int]
+    places: list[PlaceOfChange]
+    at: Roll | None
+    carriers: list[Carrier]
     sentences: list[str] = SENTENCES
 
     @classmethod

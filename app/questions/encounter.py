@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any, Self
 
-from pydantic import Field
-
 import core
 from app.questions.collision_time import Contact
 from app.questions.figures import FORMATS, PICTURES
@@ -40,7 +38,13 @@ class EncounterCertificate(Answer, of=core.EncounterEvidence, leave=()):
 
 
 class Encounter(Answer, of=core.FirstEncounter, leave=("feature_dragons", "performance")):
-    """First time that benches of two different dragons come within the margin, or touch if it is 0."""
+    """First time that benches of two different dragons come within the margin, or touch if it is 0.
+
+    names: their names; null for a dragon without one
+    cross_check: verdicts of the engines on the benches of all dragons, 1e-6 m of travel of the faster head before and
+        after the encounter (at the start: at the start and after it); with a stray on the two that meet. Null without
+        an encounter or if not requested
+    """
 
     outcome: Outcome
     margin: float
@@ -48,7 +52,7 @@ class Encounter(Answer, of=core.FirstEncounter, leave=("feature_dragons", "perfo
     time: float | None
     overlapping: DragonPair | None
     dragons: Pair | None
-    names: tuple[str | None, str | None] | None = Field(description="Their names; null for a dragon without one")
+    names: tuple[str | None, str | None] | None
     benches: Pair | None
     heads: tuple[core.HeadState, core.HeadState] | None
     gap: float | None
@@ -58,11 +62,7 @@ class Encounter(Answer, of=core.FirstEncounter, leave=("feature_dragons", "perfo
     end: core.PerformanceEnd | None
     sentences: list[str] = SENTENCES
     certificate: EncounterCertificate
-    cross_check: EncounterCheck | None = Field(
-        description="Verdicts of the engines on the benches of all dragons, 1e-6 m of travel of the faster head before "
-        "and after the encounter (at the start: at the start and after it); with a stray on the two that meet. Null "
-        "without an encounter or if not requested"
-    )
+    cross_check: EncounterCheck | None
 
     @classmethod
     def of(cls, result: core.FirstEncounter, request: Contact, terms: Terms) -> Self:

@@ -58,19 +58,19 @@ class SweepProof(Answer, of=core.SweepProof, leave=()):
 
 
 class Envelope(Answer, of=core.Envelope):
-    """The ground that benches sweep."""
+    """The ground that benches sweep.
 
-    envelope: Annotated[Polygon | MultiPolygon, Field(discriminator="type")] = Field(
-        description="GeoJSON geometry in metres that holds every pose of every bench, holes kept"
-    )
+    envelope: geoJSON geometry in metres that holds every pose of every bench, holes kept
+    distance: least distance of the spectators' line from it, 0 where they meet: no bench comes nearer; null without
+        them [m]
+    """
+
+    envelope: Annotated[Polygon | MultiPolygon, Field(discriminator="type")]
     excess: float
     area: float
     start: float
     stop: float
-    distance: float | None = measure(
-        "m",
-        "Least distance of the spectators' line from it, 0 where they meet: no bench comes nearer; null without them",
-    )
+    distance: float | None
     certificate: SweepProof
 
     @classmethod
@@ -80,9 +80,12 @@ class Envelope(Answer, of=core.Envelope):
 
 
 class NamedDragon(Answer):
-    """One of several dragons."""
+    """One of several dragons.
 
-    name: str | None = Field(description="Name of the dragon; null without one")
+    name: name of the dragon; null without one
+    """
+
+    name: str | None
 
 
 class DragonEnvelope(Envelope, NamedDragon):
@@ -90,17 +93,20 @@ class DragonEnvelope(Envelope, NamedDragon):
 
 
 class PerformanceEnvelope(Answer):
-    """The ground that each of several dragons sweeps."""
+    """The ground that each of several dragons sweeps.
 
-    dances: list[DragonEnvelope] = Field(
-        description="The ground of each dragon, in the order of the dances; of one that stands, a thousandth of a "
-        "second of its dance there"
-    )
-    distance: float | None = measure(
-        "m", "Least distance of the spectators' line from the ground of any dragon, 0 where they meet; null without it"
-    )
-    start: float = measure("s", "Start of the time asked about")
-    stop: float = measure("s", "End of the time asked about")
+    dances: the ground of each dragon, in the order of the dances; of one that stands, a thousandth of a second of its
+        dance there
+    distance: least distance of the spectators' line from the ground of any dragon, 0 where they meet; null without it
+        [m]
+    start: start of the time asked about [s]
+    stop: end of the time asked about [s]
+    """
+
+    dances: list[DragonEnvelope]
+    distance: float | None
+    start: float
+    stop: float
 
     @classmethod
     def together(

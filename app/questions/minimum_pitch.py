@@ -44,16 +44,17 @@ class MinimumPitchRequest(PitchFields, DragonFields, strict=True):
 
 class MinimumPitch(Answer, of=core.MinimumPitch, leave=()):
     """The smallest pitch such that every larger one lets the head reach the turning circle without two benches nearer
-    than the margin (touching, if it is 0)."""
+    than the margin (touching, if it is 0).
+
+    cross_check: verdicts of the engines at a pitch 1e-6 m larger and smaller, with the head where the pair is in
+        contact (with a stray shapely's alone, for the areas that benches may cover); of several dragons bench b of
+        dragon k has the number k times the benches of one, plus b; null without a pair or if not requested
+    """
 
     stray: float | None = TOTAL_STRAY
     sentences: list[str] = SENTENCES
     words: evidence.Words | None = evidence.WORDS
-    cross_check: core.ContactCheck | None = Field(
-        description="Verdicts of the engines at a pitch 1e-6 m larger and smaller, with the head where the pair is in "
-        "contact (with a stray shapely's alone, for the areas that benches may cover); of several dragons bench b of "
-        "dragon k has the number k times the benches of one, plus b; null without a pair or if not requested"
-    )
+    cross_check: core.ContactCheck | None
 
 
 def checked_pitch(result: core.MinimumPitch, request: WayToCircle, dragon: Dragon) -> core.MinimumPitch:

@@ -50,9 +50,12 @@ class OverlapsRequest(Wire, strict=True):
 
 
 class Overlap(Answer, of=core.Separation):
-    """Two benches within the margin, or overlapping if it is 0. witness_b - witness_a = separation * normal."""
+    """Two benches within the margin, or overlapping if it is 0. witness_b - witness_a = separation * normal.
 
-    benches: Pair = Field(description="The pair a, b")
+    benches: the pair a, b
+    """
+
+    benches: Pair
     separation: float
     witness_a: Point
     witness_b: Point
@@ -60,18 +63,26 @@ class Overlap(Answer, of=core.Separation):
 
 
 class OverlapsCheck(Answer):
-    """Independent engines side by side."""
+    """Independent engines side by side.
 
-    agree: bool = Field(description="True if all engines that were asked found the same pairs")
-    engines: dict[Engine, list[Pair]] = Field(description="Pairs found by each engine")
+    agree: true if all engines that were asked found the same pairs
+    engines: pairs found by each engine
+    """
+
+    agree: bool
+    engines: dict[Engine, list[Pair]]
     left_out: list[Engine] = Field(description=LEFT_OUT)
 
 
 class OverlapsAnswer(Answer):
-    """All pairs with separation <= margin."""
+    """All pairs with separation <= margin.
 
-    overlaps: list[Overlap] = Field(description="The pairs, sorted")
-    cross_check: OverlapsCheck = Field(description="Independent engines side by side")
+    overlaps: the pairs, sorted
+    cross_check: independent engines side by side
+    """
+
+    overlaps: list[Overlap]
+    cross_check: OverlapsCheck
 
 
 def overlaps(request: OverlapsRequest | InstantQuery, terms: Terms) -> OverlapsAnswer:

@@ -69,43 +69,71 @@ class PaperQuery(Wire):
 
 
 class Evidence(Answer, frozen=True):
-    """One computation that bears on a difference."""
+    """One computation that bears on a difference.
 
-    what: str = Field(description="Quantity computed")
-    value: float = Field(description="Value in that unit")
-    unit: str = Field(description="Unit of the value")
+    what: quantity computed
+    value: value in that unit
+    unit: unit of the value
+    """
+
+    what: str
+    value: float
+    unit: str
 
 
 class PaperNumber(Answer, frozen=True):
-    """One number that the paper reports, beside ours."""
+    """One number that the paper reports, beside ours.
 
-    quantity: str = Field(description="Name of the quantity")
-    unit: str = Field(description="Unit of paper, ours and difference")
-    source: str = Field(description="Place in the paper")
-    paper: float = Field(description="Value in the paper, in that unit")
-    ours: float = Field(description="Value computed here, in that unit")
-    difference: float = Field(description="Our value minus the paper's, in that unit")
-    reason: str = Field(description="Reason for the difference, as far as computations show it")
-    evidence: list[Evidence] = Field(description="Computations behind the reason")
+    quantity: name of the quantity
+    unit: unit of paper, ours and difference
+    source: place in the paper
+    paper: value in the paper, in that unit
+    ours: value computed here, in that unit
+    difference: our value minus the paper's, in that unit
+    reason: reason for the difference, as far as computations show it
+    evidence: computations behind the reason
+    """
+
+    quantity: str
+    unit: str
+    source: str
+    paper: float
+    ours: float
+    difference: float
+    reason: str
+    evidence: list[Evidence]
 
 
 class PublishedNumber(Answer, frozen=True):
-    """One number that others published about the contest's problem, beside ours."""
+    """One number that others published about the contest's problem, beside ours.
 
-    quantity: str = Field(description="Name of the quantity")
-    unit: str = Field(description="Unit of published, ours and difference")
-    source: str = Field(description="Authors, place, year and DOI")
-    published: float = Field(description="Value as published, in that unit")
-    ours: float = Field(description="Value computed here, in that unit")
-    difference: float = Field(description="Our value minus the published one, in that unit")
-    diagnosis: list[DiagnosisAnswer] = Field(description="Known shortcuts that give it; empty where nothing fits")
+    quantity: name of the quantity
+    unit: unit of published, ours and difference
+    source: authors, place, year and DOI
+    published: value as published, in that unit
+    ours: value computed here, in that unit
+    difference: our value minus the published one, in that unit
+    diagnosis: known shortcuts that give it; empty where nothing fits
+    """
+
+    quantity: str
+    unit: str
+    source: str
+    published: float
+    ours: float
+    difference: float
+    diagnosis: list[DiagnosisAnswer]
 
 
 class PaperTable(Answer):
-    """The paper's reported numbers beside ours, and those of other publications."""
+    """The paper's reported numbers beside ours, and those of other publications.
 
-    rows: list[PaperNumber] = Field(description="One row for each number in the paper")
-    literature: list[PublishedNumber] = Field(description="One row for each number published elsewhere")
+    rows: one row for each number in the paper
+    literature: one row for each number published elsewhere
+    """
+
+    rows: list[PaperNumber]
+    literature: list[PublishedNumber]
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ import core
 from app.questions.minimum_pitch import checked_pitch
 from app.wire.answers import Columns, Pair, Point
 from app.wire.dances import DragonFields
-from app.wire.fields import Answer, UniformDragon, Whole, measure
+from app.wire.fields import Answer, UniformDragon, Whole
 from app.wire.paths import Circle
 from app.wire.question import UNKNOWN_COST, Question, Terms
 from core.design.pitch_scan import pitches_near, scan_near_minimum
@@ -39,21 +39,28 @@ class PitchScanRequest(Located, DragonFields, strict=True):
 
 
 class Jump(Answer):
-    """Two pitches so near to one another that the radius jumps between them."""
+    """Two pitches so near to one another that the radius jumps between them.
 
-    pitch: Point = measure("m", "Just before and just after the jump")
-    radius: Point = measure("m", "Radius at these two pitches")
+    pitch: just before and just after the jump [m]
+    radius: radius at these two pitches [m]
+    """
+
+    pitch: Point
+    radius: Point
 
 
 class PitchScanTable(Answer, of=core.PitchScan):
     """Columns with one entry per sampled pitch at which two benches come within the margin, or touch if it is 0,
-    and the jumps of the radius besides."""
+    and the jumps of the radius besides.
+
+    minimum_pitch: minimum pitch, around which the scanned pitches lie [m]
+    """
 
     pitch: list[float]
     radius: list[float]
     pieces: list[Pair]
     jumps: list[Jump] = Field(description="Jumps of the radius, ascending; empty if jumps are not located")
-    minimum_pitch: float = measure("m", "Minimum pitch, around which the scanned pitches lie")
+    minimum_pitch: float
 
 
 def pitch_scan(request: PitchScanQuery | PitchScanRequest, terms: Terms) -> Columns:

@@ -98,27 +98,41 @@ class ProposalsRequest(VenueFields, DragonFields, strict=True):
 
 
 class Proposal(Answer):
-    """A dance that fits, which passes its check."""
+    """A dance that fits, which passes its check.
 
-    figure: core.Figure = Field(description="Figure of the dance")
-    dance: dict[str, Any] = Field(description="The dance with its venue and limits, as a body of POST /check")
-    tolerance: float = measure("m", "Largest stray of people that is proven safe, without the margin")
-    duration: float = measure("s", "Time from its start, with the whole dragon on its path, to its end")
-    length: float = measure("m", "Way of the head in this time")
-    area: float = measure("m2", "Area of the ground that benches sweep, which reaches at most 0.1 m beyond them")
-    turns: float = measure("turns", "Turns of the head, all bends added up")
-    sharpest_bend: float | None = measure("rad", "Largest angle of two consecutive benches; null for a single bench")
-    clearance: float | None = measure(
-        "m",
-        "Least distance of the ground that two benches may cover with the stray of the request, which a bench between "
-        "them may hold further apart; null with fewer than three",
-    )
-    clearance_in_place: float | None = measure("m", "The same with everybody in place")
-    highest_speed: float | None = measure("m/s", "Highest speed of any handle")
-    near: core.Near = Field(description="What the benches come nearest to")
-    gates: list[int] = Field(description="Numbers of the gates by which it enters and leaves; none without gates")
-    summary: str = Field(description="The proposal in one sentence")
-    cards: dict[Language, ProposalCard] = Field(description="What to say of it beside the others, in every language")
+    figure: figure of the dance
+    dance: the dance with its venue and limits, as a body of POST /check
+    tolerance: largest stray of people that is proven safe, without the margin [m]
+    duration: time from its start, with the whole dragon on its path, to its end [s]
+    length: way of the head in this time [m]
+    area: area of the ground that benches sweep, which reaches at most 0.1 m beyond them [m2]
+    turns: turns of the head, all bends added up [turns]
+    sharpest_bend: largest angle of two consecutive benches; null for a single bench [rad]
+    clearance: least distance of the ground that two benches may cover with the stray of the request, which a bench
+        between them may hold further apart; null with fewer than three [m]
+    clearance_in_place: the same with everybody in place [m]
+    highest_speed: highest speed of any handle [m/s]
+    near: what the benches come nearest to
+    gates: numbers of the gates by which it enters and leaves; none without gates
+    summary: the proposal in one sentence
+    cards: what to say of it beside the others, in every language
+    """
+
+    figure: core.Figure
+    dance: dict[str, Any]
+    tolerance: float
+    duration: float
+    length: float
+    area: float
+    turns: float
+    sharpest_bend: float | None
+    clearance: float | None
+    clearance_in_place: float | None
+    highest_speed: float | None
+    near: core.Near
+    gates: list[int]
+    summary: str
+    cards: dict[Language, ProposalCard]
 
     @classmethod
     def of(cls, result: core.Proposal, body: dict[str, Any], cards: dict[Language, ProposalCard]) -> Self:
@@ -128,18 +142,21 @@ class Proposal(Answer):
 
 
 class Lack(Answer):
-    """The numbers of a reason: m2 for area, m for width, way, stray, s for duration, benches for benches and fails."""
+    """The numbers of a reason: m2 for area, m for width, way, stray, s for duration, benches for benches and fails.
 
-    have: float | None = Field(
-        description="What there is; for fails the benches of the dance that comes nearest, which is one if no dance of "
-        "the whole dragon was worth a check"
-    )
-    need: float | None = Field(description="What it takes; for fails the benches of the dragon")
-    figure: core.Figure | None = Field(description="The figure that comes nearest; null for area, width and way")
-    who: list[int] = Field(description="For width the bench that needs it, for way the numbers of both gates")
-    failure: Failure | None = Field(
-        description="For fails the first failure of the dance that comes nearest; else null"
-    )
+    have: what there is; for fails the benches of the dance that comes nearest, which is one if no dance of the whole
+        dragon was worth a check
+    need: what it takes; for fails the benches of the dragon
+    figure: the figure that comes nearest; null for area, width and way
+    who: for width the bench that needs it, for way the numbers of both gates
+    failure: for fails the first failure of the dance that comes nearest; else null
+    """
+
+    have: float | None
+    need: float | None
+    figure: core.Figure | None
+    who: list[int]
+    failure: Failure | None
 
     @classmethod
     def of(cls, result: core.Reason, dragon: core.Dragon) -> Self:
@@ -147,23 +164,29 @@ class Lack(Answer):
 
 
 class Proposals(Answer):
-    """Dances that fit, the best one of those that were tried first; none is proven to be the best there is."""
+    """Dances that fit, the best one of those that were tried first; none is proven to be the best there is.
 
-    proposals: list[Proposal] = Field(description="The proposals; none if no dance passes")
-    tried: int = Field(description="Dances that were laid out and measured")
-    checked: int = Field(description="Of these, dances that a check judged")
-    reason: str | None = Field(description="Why there is none, in one sentence; null if there is one")
-    reason_kind: core.ReasonKind | None = Field(
-        description="area: the benches cover more than the square has; width: nowhere is room for a turn as tight as "
-        "those that are tried; way: no way between the gates is wide enough; stray: only a smaller stray is possible; "
-        "duration: the dances that were found last longer than the limit; "
-        "benches: only a shorter dragon fits; fails: none of the dances that were tried passes"
-    )
-    reason_values: Lack | None = Field(description="The numbers of the reason; null if there is a proposal")
-    most_benches: int | None = Field(
-        description="Proven: no dragon of this kind with more benches fits, by the area of the square; null with gates"
-    )
-    summary: str = Field(description="The answer in one sentence")
+    proposals: the proposals; none if no dance passes
+    tried: dances that were laid out and measured
+    checked: of these, dances that a check judged
+    reason: why there is none, in one sentence; null if there is one
+    reason_kind: area: the benches cover more than the square has; width: nowhere is room for a turn as tight as those
+        that are tried; way: no way between the gates is wide enough; stray: only a smaller stray is possible; duration:
+        the dances that were found last longer than the limit; benches: only a shorter dragon fits; fails: none of the
+        dances that were tried passes
+    reason_values: the numbers of the reason; null if there is a proposal
+    most_benches: Proven: no dragon of this kind with more benches fits, by the area of the square; null with gates
+    summary: the answer in one sentence
+    """
+
+    proposals: list[Proposal]
+    tried: int
+    checked: int
+    reason: str | None
+    reason_kind: core.ReasonKind | None
+    reason_values: Lack | None
+    most_benches: int | None
+    summary: str
 
 
 def proposals(request: ProposalsRequest, terms: Terms) -> Proposals:

@@ -7,7 +7,7 @@ from app.questions.maximum_head_speed import SpeedLimitField
 from app.questions.turn_time import TurnTime
 from app.wire import evidence
 from app.wire.dances import DragonFields
-from app.wire.fields import Margin, UniformDragon, measure
+from app.wire.fields import Margin, UniformDragon
 from app.wire.paths import TurnCircle
 from app.wire.question import Command, Question, Terms
 from app.wire.readings import time_words, turn_words
@@ -32,11 +32,13 @@ class QuickestTurnRequest(QuickestTurnFields, DragonFields, strict=True):
 
 class QuickestTurn(TurnTime):
     """The quickest turn of a scan over entries and exits. It is proven that nothing touches in it, with everybody in
-    their place, and that no handle exceeds the limit, not that no other turn is quicker."""
+    their place, and that no handle exceeds the limit, not that no other turn is quicker.
 
-    scan_step: float = measure(
-        "m", "Distance between the tried entries, and exits, from which the time was lowered; none between is excluded"
-    )
+    scan_step: distance between the tried entries, and exits, from which the time was lowered; none between is excluded
+        [m]
+    """
+
+    scan_step: float
 
 
 def quickest_turn(request: QuickestTurnQuery | QuickestTurnRequest, terms: Terms) -> QuickestTurn:

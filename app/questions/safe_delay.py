@@ -44,17 +44,22 @@ class SafeDelayRequest(DelayFields, PerformanceFields, strict=True):
 
 
 class SafeDelays(Answer, of=core.SafeDelays, leave=("performance",)):
-    """The delays of one dragon at which no benches of two dragons come within the margin, or touch if it is 0."""
+    """The delays of one dragon at which no benches of two dragons come within the margin, or touch if it is 0.
+
+    name: its name; null without
+    first_safe: the shortest safe delay; null: none is known [s]
+    summary: the answer in one sentence
+    """
 
     part: int
-    name: str | None = Field(description="Its name; null without")
-    first_safe: float | None = measure("s", "The shortest safe delay; null: none is known")
+    name: str | None
+    first_safe: float | None
     safe: list[Point]
     undecided: list[Point]
     least: float
     most: float
     stray: float | None = TOTAL_STRAY
-    summary: str = Field(description="The answer in one sentence")
+    summary: str
 
     @classmethod
     def of(cls, result: core.SafeDelays, request: SafeDelayRequest) -> Self:

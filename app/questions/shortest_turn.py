@@ -49,7 +49,23 @@ class ShortestTurnRequest(ShortestTurnFields, DragonFields, strict=True):
 
 
 class ShortestTurn(Turn):
-    """The shortest turn inside the circle that this dragon can dance."""
+    """The shortest turn inside the circle that this dragon can dance.
+
+    entry_bracket: entry radii. Free exit: least and greatest of the turns that may be as short as this one; opposite
+        exit: infeasible; feasible [m]
+    exit_bracket: exit radii, as entry_bracket; null for an opposite exit [m]
+    limited_by: reason against a shorter turn. least_radius: a bend has the least radius that is taken for the longest
+        chord, 0.1 % more than it needs, because a proof does (bend: the former name, which no answer has); circle: it
+        begins or ends on the circle; contact: benches come nearer than the margin, or touch if it is 0; following
+        (any_bend): in each shorter turn that is excluded a bench cannot follow, or benches touch; centre: nothing
+        prevents it, down to the centre; undecided: rounding hides whether benches come within the margin at the lower
+        end of entry_bracket
+    benches: the pair in contact at a slightly deeper entry; null if there is none, and for a free exit
+    time: time of that contact, at a head speed of 1 m/s; 0 is the entry into the turn [s]
+    scan_step: distance between the entries tried from the circle inwards; each one is proven, but a narrower range of
+        infeasible ones between two is not excluded. 0 for a free exit, whose search leaves no gap [m]
+    evaluations: number of turns danced
+    """
 
     length_bracket: Point | None = measure(
         "m",
@@ -57,30 +73,13 @@ class ShortestTurn(Turn):
         "of this one, which was danced without a contact. It is wider where the work was spent first. null for an "
         "opposite exit",
     )
-    entry_bracket: Point = measure(
-        "m",
-        "Entry radii. Free exit: least and greatest of the turns that may be as short as this one; opposite exit: "
-        "infeasible; feasible",
-    )
-    exit_bracket: Point | None = measure("m", "Exit radii, as entry_bracket; null for an opposite exit")
-    limited_by: core.TurnLimit = Field(
-        description="Reason against a shorter turn. least_radius: a bend has the least radius that is taken for the "
-        "longest chord, 0.1 % more than it needs, because a proof does (bend: the former name, which no answer has); "
-        "circle: it begins or ends on the circle; contact: benches come nearer than the margin, or touch if it is 0; "
-        "following (any_bend): in each shorter turn that is excluded a bench cannot follow, or benches touch; "
-        "centre: nothing prevents it, down to the centre; undecided: rounding hides whether benches come within the "
-        "margin at the lower end of entry_bracket"
-    )
-    benches: Pair | None = Field(
-        description="The pair in contact at a slightly deeper entry; null if there is none, and for a free exit"
-    )
-    time: float | None = measure("s", "Time of that contact, at a head speed of 1 m/s; 0 is the entry into the turn")
-    scan_step: float = measure(
-        "m",
-        "Distance between the entries tried from the circle inwards; each one is proven, but a narrower range of "
-        "infeasible ones between two is not excluded. 0 for a free exit, whose search leaves no gap",
-    )
-    evaluations: int = Field(description="Number of turns danced")
+    entry_bracket: Point
+    exit_bracket: Point | None
+    limited_by: core.TurnLimit
+    benches: Pair | None
+    time: float | None
+    scan_step: float
+    evaluations: int
     stray: float | None = TOTAL_STRAY
     sentences: list[str] = SENTENCES
     words: evidence.Words | None = evidence.WORDS

@@ -75,14 +75,14 @@ class StrayProof(Answer, of=core.StrayProof, leave=()):
 
 
 class Tolerance(Answer, of=core.Tolerance, leave=("independent",)):
-    """Largest distance of every hole from its place, at any time, without any contact."""
+    """Largest distance of every hole from its place, at any time, without any contact.
+
+    stray_with_errors: proven safe whatever the sizes are within length_error and pitch_error, 0: none is known to be;
+        null without such errors [m]
+    """
 
     simple: float
-    stray_with_errors: float | None = measure(
-        "m",
-        "Proven safe whatever the sizes are within length_error and pitch_error, 0: none is known to be; null without "
-        "such errors",
-    )
+    stray_with_errors: float | None
     stray_bracket: tuple[float, float | None]
     exhibit: Shown | None
     sentences: list[str] = SENTENCES
@@ -99,10 +99,13 @@ class ShownTogether(Answer, of=core.PerformanceExhibit):
 
 
 class PerformanceTolerance(Answer, of=core.PerformanceTolerance, leave=("performance",)):
-    """Largest distance of every hole of several dragons from its place, at any time, without any contact."""
+    """Largest distance of every hole of several dragons from its place, at any time, without any contact.
+
+    names: their names; null for a dragon without one
+    """
 
     dragons: list[int]
-    names: list[str | None] = Field(description="Their names; null for a dragon without one")
+    names: list[str | None]
     time: float | None
     exhibit: ShownTogether | None
     own: list[float] = measure("m", "Safe stray of each dragon by itself in the venue")

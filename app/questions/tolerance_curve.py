@@ -57,15 +57,16 @@ class ToleranceCurveRequest(CurveFields, DragonFields, strict=True):
 
 
 class ToleranceCurve(Answer, of=core.ToleranceCurve):
-    """Columns with one entry for each pitch, from the start of the dance until the head is on the circle."""
+    """Columns with one entry for each pitch, from the start of the dance until the head is on the circle.
+
+    touching: shown to touch; null where no such pose was found [m]
+    limited_by: effect of a larger stray. benches: two benches touch; chord: no contact up to half of the shortest chord
+    """
 
     pitch: list[float]
     stray: list[float]
-    touching: list[float | None] = measure("m", "Shown to touch; null where no such pose was found")
-    limited_by: list[Limit] = Field(
-        description="Effect of a larger stray. benches: two benches touch; chord: no contact up to half of the "
-        "shortest chord"
-    )
+    touching: list[float | None]
+    limited_by: list[Limit]
 
 
 def tolerance_curve(request: ToleranceCurveQuery | ToleranceCurveRequest, terms: Terms) -> Columns:

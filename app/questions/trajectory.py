@@ -33,28 +33,44 @@ class TrajectoryRequest(SeveralDances, DanceTrajectory):
 
 
 class TrajectoryTable(Answer):
-    """Columns with one row per instant; a row has one entry per handle, head first (H = benches + 1 entries)."""
+    """Columns with one row per instant; a row has one entry per handle, head first (H = benches + 1 entries).
 
-    time: list[float] = measure("s", "Instants, T entries")
-    x: list[list[float]] = measure("m", "T rows of H entries")
-    y: list[list[float]] = measure("m", "T rows of H entries")
-    speed: list[list[float]] = measure("m/s", "T rows of H entries")
+    time: instants, T entries [s]
+    x: t rows of H entries [m]
+    y: t rows of H entries [m]
+    speed: t rows of H entries [m/s]
+    """
+
+    time: list[float]
+    x: list[list[float]]
+    y: list[list[float]]
+    speed: list[list[float]]
 
 
 class DragonTrajectory(Answer):
-    """Positions and speeds of one of several dragons; H is its number of handles."""
+    """Positions and speeds of one of several dragons; H is its number of handles.
 
-    name: str | None = Field(description="Its name; null without one")
-    x: list[list[float]] = measure("m", "T rows of H entries")
-    y: list[list[float]] = measure("m", "T rows of H entries")
-    speed: list[list[float]] = measure("m/s", "T rows of H entries; 0 before the dance of this dragon, and after it")
+    name: its name; null without one
+    x: t rows of H entries [m]
+    y: t rows of H entries [m]
+    speed: t rows of H entries; 0 before the dance of this dragon, and after it [m/s]
+    """
+
+    name: str | None
+    x: list[list[float]]
+    y: list[list[float]]
+    speed: list[list[float]]
 
 
 class PerformanceTrajectoryTable(Answer):
-    """Tables of several dragons at the same instants."""
+    """Tables of several dragons at the same instants.
 
-    time: list[float] = measure("s", "Instants, T entries")
-    dances: list[DragonTrajectory] = Field(description="A table for each dragon, in the order of the dances")
+    time: instants, T entries [s]
+    dances: a table for each dragon, in the order of the dances
+    """
+
+    time: list[float]
+    dances: list[DragonTrajectory]
 
 
 class TrajectoryOptions(TimeRange, PathOptions):

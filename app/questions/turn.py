@@ -8,7 +8,7 @@ from pydantic import Field
 
 import core
 from app.wire.answers import Point
-from app.wire.fields import Answer, Wire, measure
+from app.wire.fields import Answer, Wire
 from app.wire.paths import TurnFields, TurnPath
 from app.wire.question import Command, Question, Terms
 from core.language import say
@@ -25,22 +25,34 @@ class TurnRequest(Wire, strict=True):
 
 
 class Turn(Answer):
-    """Two tangent arcs between two coils: the first clockwise, the second counter-clockwise."""
+    """Two tangent arcs between two coils: the first clockwise, the second counter-clockwise.
 
-    pitch: float = measure("m", "Pitch of both coils")
-    turning_diameter: float = measure("m", "Diameter of the circle in which the turn lies")
-    ratio: float = Field(description="Radius of the first arc divided by that of the second")
-    entry_radius: float = measure("m", "Distance of the entry from the centre")
-    exit_radius: float = measure("m", "Distance of the exit from the centre")
-    radii: Point = measure("m", "Radii of both arcs")
-    centres: tuple[Point, Point] = measure("m", "Centres of both arcs, x and y")
-    angles: Point = measure("rad", "Angle of each arc")
-    entry: Point = measure("m", "Start of the turn, x and y")
-    tangent_point: Point = measure(
-        "m", "Point where the two arcs meet, x and y, or where the curvature of the clothoid between them is 0"
-    )
-    exit: Point = measure("m", "End of the turn, x and y")
-    length: float = measure("m", "Length of the turn: both arcs, and clothoids")
+    pitch: pitch of both coils [m]
+    turning_diameter: diameter of the circle in which the turn lies [m]
+    ratio: radius of the first arc divided by that of the second
+    entry_radius: distance of the entry from the centre [m]
+    exit_radius: distance of the exit from the centre [m]
+    radii: radii of both arcs [m]
+    centres: centres of both arcs, x and y [m]
+    angles: angle of each arc [rad]
+    entry: start of the turn, x and y [m]
+    tangent_point: point where the two arcs meet, x and y, or where the curvature of the clothoid between them is 0 [m]
+    exit: end of the turn, x and y [m]
+    length: length of the turn: both arcs, and clothoids [m]
+    """
+
+    pitch: float
+    turning_diameter: float
+    ratio: float
+    entry_radius: float
+    exit_radius: float
+    radii: Point
+    centres: tuple[Point, Point]
+    angles: Point
+    entry: Point
+    tangent_point: Point
+    exit: Point
+    length: float
 
     @classmethod
     def of(cls, result: core.Turn | core.ClothoidTurn) -> Self:

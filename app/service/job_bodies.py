@@ -12,7 +12,7 @@ from app.files.tables import ARROW_TYPE, CSV_TYPE, PARQUET_TYPE
 from app.jobs.job import Job, JobState
 from app.sweeps.spec import Spec
 from app.wire.faults import pointer
-from app.wire.fields import measure
+from app.wire.fields import Answer
 from app.wire.problem import Problem
 from app.wire.question import JSON
 from core.language import Phrases, say
@@ -69,42 +69,67 @@ def pointer_in_sweep(field: str, sweep: SweepRequest) -> str:
     return f"/request{pointer(field.split('.'), sweep.request)}"
 
 
-class Link(BaseModel):
-    """A link to a resource of a job."""
+class Link(Answer):
+    """A link to a resource of a job.
 
-    href: str = Field(description="Address")
-    rel: str = Field(description="Target: self, monitor (its events), or results")
-    type: str = Field(description="Media type; for results that of the answer")
+    href: address
+    rel: Target: self, monitor (its events), or results
+    type: media type; for results that of the answer
+    """
 
-
-class JobStatus(BaseModel):
-    """Status of a job, by the names of OGC API Processes."""
-
-    jobID: str = Field(description="Name of the job, with which anyone may see and dismiss it")  # noqa: N815
-    type: str = Field(description="Always process")
-    processID: str = Field(description="Operation id of the call that answers")  # noqa: N815
-    status: JobState = Field(description="Status of the job")
-    message: str = Field(description="The status in words")
-    sentence: str = Field(description="The status for people: also designs, rate and time left of a sweep that runs")
-    created: str = Field(description="Time of the request, in ISO 8601")
-    started: str | None = Field(description="Time of its last start")
-    finished: str | None = Field(description="Time of its end, in success or not")
-    updated: str = Field(description="Time of the last change")
-    progress: int = measure("%", "Share of the work that is done, 0 to 100; 0 if the question cannot tell")
-    rate: float | None = measure("%/s", "Average rate of progress")
-    time_left: float | None = measure("s", "Time left at that rate")
-    done: int | None = Field(
-        description="Answered designs of a sweep; null before the first report, and for other questions"
-    )
-    total: int | None = Field(description="Designs of a sweep; null as for done")
-    problem: Problem | None = Field(description="Reason of a failure, as in a direct answer of the call")
-    links: list[Link] = Field(description="Addresses of its status, its events and its result")
+    href: str
+    rel: str
+    type: str
 
 
-class JobList(BaseModel):
-    """All jobs of this service, the newest first."""
+class JobStatus(Answer):
+    """Status of a job, by the names of OGC API Processes.
 
-    jobs: list[JobStatus] = Field(description="The newest first")
+    jobID: name of the job, with which anyone may see and dismiss it
+    type: always process
+    processID: operation id of the call that answers
+    status: status of the job
+    message: the status in words
+    sentence: the status for people: also designs, rate and time left of a sweep that runs
+    created: time of the request, in ISO 8601
+    started: time of its last start
+    finished: time of its end, in success or not
+    updated: time of the last change
+    progress: share of the work that is done, 0 to 100; 0 if the question cannot tell [%]
+    rate: average rate of progress [%/s]
+    time_left: time left at that rate [s]
+    done: answered designs of a sweep; null before the first report, and for other questions
+    total: designs of a sweep; null as for done
+    problem: reason of a failure, as in a direct answer of the call
+    links: addresses of its status, its events and its result
+    """
+
+    jobID: str  # noqa: N815
+    type: str
+    processID: str  # noqa: N815
+    status: JobState
+    message: str
+    sentence: str
+    created: str
+    started: str | None
+    finished: str | None
+    updated: str
+    progress: int
+    rate: float | None
+    time_left: float | None
+    done: int | None
+    total: int | None
+    problem: Problem | None
+    links: list[Link]
+
+
+class JobList(Answer):
+    """All jobs of this service, the newest first.
+
+    jobs: the newest first
+    """
+
+    jobs: list[JobStatus]
 
 
 def _progress_words(job: Job) -> str:

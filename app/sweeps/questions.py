@@ -11,7 +11,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from pydantic import BaseModel, Field
+from pydantic import BaseModel
 
 import core
 from app.questions import clearance, overlaps
@@ -24,7 +24,7 @@ from app.questions.trajectory import DanceTrajectory, TrajectoryRequest
 from app.settings import Settings
 from app.wire.answers import Pair, Point
 from app.wire.dances import DanceFields
-from app.wire.fields import Answer, DanceQuery, measure
+from app.wire.fields import Answer, DanceQuery
 from app.wire.messages import checked
 from app.wire.performances import PerformanceFields
 from app.wire.question import Terms
@@ -91,52 +91,86 @@ def _words(place: str) -> tuple[str, str]:
 
 
 class ClearanceRow(Answer):
-    """The smallest clearance between the first and the last instant of the request."""
+    """The smallest clearance between the first and the last instant of the request.
 
-    clearance: float = measure("m", "Smallest separation of two benches that are not neighbours")
-    time: float = measure("s", "Time of that clearance")
-    benches: Pair = Field(description="The pair with that separation")
+    clearance: smallest separation of two benches that are not neighbours [m]
+    time: time of that clearance [s]
+    benches: the pair with that separation
+    """
+
+    clearance: float
+    time: float
+    benches: Pair
 
 
 class TrajectoryRow(Answer):
-    """The two ends of the dragon at the last instant of the request, and the speeds at all instants."""
+    """The two ends of the dragon at the last instant of the request, and the speeds at all instants.
 
-    time: float = measure("s", "Last instant")
-    head_x: float = measure("m", "x of the first handle at the last instant")
-    head_y: float = measure("m", "y of the first handle at the last instant")
-    tail_x: float = measure("m", "x of the last handle at the last instant")
-    tail_y: float = measure("m", "y of the last handle at the last instant")
-    tail_speed: float = measure("m/s", "Speed of the last handle at the last instant")
-    least_speed: float = measure("m/s", "Lowest speed of any handle at any instant")
-    greatest_speed: float = measure("m/s", "Highest speed of any handle at any instant")
+    time: last instant [s]
+    head_x: x of the first handle at the last instant [m]
+    head_y: y of the first handle at the last instant [m]
+    tail_x: x of the last handle at the last instant [m]
+    tail_y: y of the last handle at the last instant [m]
+    tail_speed: speed of the last handle at the last instant [m/s]
+    least_speed: lowest speed of any handle at any instant [m/s]
+    greatest_speed: highest speed of any handle at any instant [m/s]
+    """
+
+    time: float
+    head_x: float
+    head_y: float
+    tail_x: float
+    tail_y: float
+    tail_speed: float
+    least_speed: float
+    greatest_speed: float
 
 
 class OverlapsRow(Answer):
-    """The number of overlapping pairs, and the deepest overlap."""
+    """The number of overlapping pairs, and the deepest overlap.
 
-    pairs: int = Field(description="Pairs that overlap or come within the margin")
-    separation: float | None = measure("m", "Smallest separation of these pairs; null: there is no such pair")
-    benches: Pair | None = Field(description="The pair with that separation")
-    agree: bool = Field(description="True if all engines found the same pairs")
+    pairs: pairs that overlap or come within the margin
+    separation: smallest separation of these pairs; null: there is no such pair [m]
+    benches: the pair with that separation
+    agree: true if all engines found the same pairs
+    """
+
+    pairs: int
+    separation: float | None
+    benches: Pair | None
+    agree: bool
 
 
 class DragonsClearanceRow(Answer):
-    """The smallest clearance between two dragons between the first and the last instant of the request."""
+    """The smallest clearance between two dragons between the first and the last instant of the request.
 
-    clearance: float = measure("m", "Smallest separation of two benches of different dragons")
-    time: float = measure("s", "Time of that clearance")
-    dragons: Pair = Field(description="These two dragons")
-    benches: Pair = Field(description="A bench of each")
+    clearance: smallest separation of two benches of different dragons [m]
+    time: time of that clearance [s]
+    dragons: these two dragons
+    benches: a bench of each
+    """
+
+    clearance: float
+    time: float
+    dragons: Pair
+    benches: Pair
 
 
 class TrajectoriesRow(Answer):
-    """The two ends of each dragon at the last instant of the request, and the speeds at all instants."""
+    """The two ends of each dragon at the last instant of the request, and the speeds at all instants.
 
-    time: float = measure("s", "Last instant")
-    heads: list[Point] = measure("m", "The first handle of each dragon at the last instant, x and y")
-    tails: list[Point] = measure("m", "The last handle of each dragon at the last instant, x and y")
-    least_speed: float = measure("m/s", "Lowest speed of any handle at any instant")
-    greatest_speed: float = measure("m/s", "Highest speed of any handle at any instant")
+    time: last instant [s]
+    heads: the first handle of each dragon at the last instant, x and y [m]
+    tails: the last handle of each dragon at the last instant, x and y [m]
+    least_speed: lowest speed of any handle at any instant [m/s]
+    greatest_speed: highest speed of any handle at any instant [m/s]
+    """
+
+    time: float
+    heads: list[Point]
+    tails: list[Point]
+    least_speed: float
+    greatest_speed: float
 
 
 def clearance_row(request: clearance.ClearanceQuery | DanceClearance, terms: Terms) -> ClearanceRow:

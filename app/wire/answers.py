@@ -32,24 +32,36 @@ TOTAL_STRAY: Any = measure(
 
 
 class Polygon(Answer):
-    """A polygon as in GeoJSON."""
+    """A polygon as in GeoJSON.
 
-    type: Literal["Polygon"] = Field(description="Polygon")
-    coordinates: list[list[Point]] = measure("m", "Its outer ring, then its holes: closed, points x and y")
+    type: polygon
+    coordinates: its outer ring, then its holes: closed, points x and y [m]
+    """
+
+    type: Literal["Polygon"]
+    coordinates: list[list[Point]]
 
 
 class MultiPolygon(Answer):
-    """Several polygons as in GeoJSON."""
+    """Several polygons as in GeoJSON.
 
-    type: Literal["MultiPolygon"] = Field(description="MultiPolygon")
-    coordinates: list[list[list[Point]]] = measure("m", "The rings of each polygon: closed, points x and y")
+    type: multiPolygon
+    coordinates: the rings of each polygon: closed, points x and y [m]
+    """
+
+    type: Literal["MultiPolygon"]
+    coordinates: list[list[list[Point]]]
 
 
 class DragonPair(Answer):
-    """Two benches of two dragons."""
+    """Two benches of two dragons.
 
-    dragons: Pair = Field(description="The dragons, in the order of the dances")
-    benches: Pair = Field(description="A bench of each")
+    dragons: the dragons, in the order of the dances
+    benches: a bench of each
+    """
+
+    dragons: Pair
+    benches: Pair
 
     @classmethod
     def of(cls, pair: tuple[Pair, Pair]) -> Self:
@@ -57,11 +69,14 @@ class DragonPair(Answer):
 
 
 class OwnedFeature(Answer, of=core.Feature):
-    """A corner or an edge of one bench of one dragon."""
+    """A corner or an edge of one bench of one dragon.
+
+    dragon: number of the dragon, in the order of the dances
+    """
 
     bench: int
     name: str
-    dragon: int = Field(description="Number of the dragon, in the order of the dances")
+    dragon: int
 
 
 class EncounterCheck(Answer, of=core.EncounterCheck, leave=()):

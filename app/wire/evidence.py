@@ -84,38 +84,57 @@ SHOWN = 0.05
 
 
 class EngineTable(Answer):
-    """Verdicts of the engines as a table in words."""
+    """Verdicts of the engines as a table in words.
 
-    caption: str = Field(description="Who judged what, and whether they agree")
-    rows: list[list[str]] = Field(description="Its heads, then a row for each engine")
+    caption: who judged what, and whether they agree
+    rows: its heads, then a row for each engine
+    """
+
+    caption: str
+    rows: list[list[str]]
 
 
 class Words(Answer):
-    """An answer in words for people."""
+    """An answer in words for people.
 
-    title: str = Field(description="What was asked")
-    headline: str = Field(description="The answer in a few words, rounded as people say it")
-    exact: str = Field(description="The same with all of its digits")
-    facts: list[tuple[str, str]] = Field([], description="How it is known: what, and its value")
-    notes: list[str] = Field(
-        [], description="How it is known, in sentences, without those of a certificate beside them"
-    )
-    engines: EngineTable | None = Field(None, description="Verdicts of the engines; null without any")
+    title: what was asked
+    headline: the answer in a few words, rounded as people say it
+    exact: the same with all of its digits
+    facts: how it is known: what, and its value
+    notes: how it is known, in sentences, without those of a certificate beside them
+    engines: verdicts of the engines; null without any
+    """
+
+    title: str
+    headline: str
+    exact: str
+    facts: list[tuple[str, str]] = Field(default=[])
+    notes: list[str] = Field(default=[])
+    engines: EngineTable | None = None
 
 
 class FoldWords(Words):
-    """The highest speed of a dance that folds, which has none."""
+    """The highest speed of a dance that folds, which has none.
 
-    sentences: list[str] = Field(description="What it means, in sentences")
-    near: str = Field(description="What to say beside speeds just before the fold")
+    sentences: what it means, in sentences
+    near: what to say beside speeds just before the fold
+    """
+
+    sentences: list[str]
+    near: str
 
 
 class ContactWords(Words):
-    """A first contact in words for people."""
+    """A first contact in words for people.
 
-    fold: FoldWords | None = Field(None, description="The highest speed where the dance folds; null where it does not")
-    meeting: str | None = Field(description="What meets; null if nothing does")
-    ends: list[str] = Field(description="Why the dance ends, in sentences")
+    fold: the highest speed where the dance folds; null where it does not
+    meeting: what meets; null if nothing does
+    ends: why the dance ends, in sentences
+    """
+
+    fold: FoldWords | None = None
+    meeting: str | None
+    ends: list[str]
 
 
 # Field of an answer that holds its words.

@@ -262,7 +262,7 @@ def described_field(name: str, kind: type) -> FieldInfo | None:
     meaning = meanings(kind).get(name)
     if meaning is None:
         return None
-    words = re.sub(r"(^|\. )([a-z])(?!\w+:|[xy]\b)", lambda one: one[1] + one[2].upper(), meaning.words)
+    words = re.sub(r"(^|\. )([a-z])(?!\w+:|[xy]\b|(?<=[xy]) )", lambda one: one[1] + one[2].upper(), meaning.words)
     words = re.sub(r"(?<=\. )None\b", "Null", words).replace("None", "null")
     field: FieldInfo = measure(meaning.unit, words)
     return field
@@ -284,7 +284,8 @@ class Answer(BaseModel):
     """An answer or a part of one: finite numbers only, so that a mistake of ours becomes an error and never a NaN.
 
     A part that says what a value of core says is that value itself. Where an answer says more, `of` is the value whose
-    docstring describes the fields of the same names; its own docstring may describe fields behind its first paragraph.
+    docstring describes the fields of the same names; its own docstring describes the others, as there: each in a line
+    `name: words [unit]` behind its first paragraph. A description stands beside a field only where it is made there.
     With `leave`, it has also the fields of that value that it does not declare, each behind the one that is before it
     there, but those to leave out.
     """
@@ -312,11 +313,9 @@ class Answer(BaseModel):
     @classmethod
     def __pydantic_init_subclass__(cls, of: type | None = None, leave: Any = None, **options: Any) -> None:
         super().__pydantic_init_subclass__(**options)
-        kind = of or (cls if "\n\n" in (cls.__doc__ or "") else None)
-        for name, known in ((name, described_field(name, kind)) for name in cls.model_fields if kind):
-            if known and cls.model_fields[name].description is None:
-                cls.model_fields[name].description = known.description
-                cls.model_fields[name].json_schema_extra = known.json_schema_extra
+        for name, field in cls.model_fields.items():
+            if field.description is None and (known := described_field(name, of or cls) or described_field(name, cls)):
+                field.description, field.json_schema_extra = known.description, known.json_schema_extra
 
     def to_json(self) -> bytes:
         return self.model_dump_json().encode()

@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from pydantic import Field
 
 import core
 from app.wire.fields import Answer
@@ -32,13 +31,20 @@ LONG, POINTS = 120, 400
 
 
 class ProposalCard(Answer):
-    """A proposed dance in words."""
+    """A proposed dance in words.
 
-    title: str = Field(description="Its figure, and what tells it from the others of that figure")
-    size: str = Field(description="Benches, time and way")
-    good: str = Field(description="What is good about it, among all proposals")
-    tight: str = Field(description="What comes near, and what is tight")
-    is_tight: bool = Field(description="Whether to look out there")
+    title: its figure, and what tells it from the others of that figure
+    size: benches, time and way
+    good: what is good about it, among all proposals
+    tight: what comes near, and what is tight
+    is_tight: whether to look out there
+    """
+
+    title: str
+    size: str
+    good: str
+    tight: str
+    is_tight: bool
 
 
 @dataclass(frozen=True)
