@@ -4,8 +4,8 @@
 Exit code 0: the certificate proves the claim that is printed. 1: it does not, for the reason that is printed. 2:
 wrong usage, or a file that cannot be read. Only the standard library is used. Floating point only guesses; whole
 numbers decide. The verdict rests on the mathematics written down here, and on the code below, which is in this order:
-arithmetic; benches on a spiral (1. to 8.); routes (9. to 13.); strays (14. to 16.); the whole dragon (5.); the claims;
-the form of a certificate.
+arithmetic; benches on a spiral (1. to 8.); routes (9. to 13., 17.); strays (14. to 16.); the whole dragon (5.); the
+claims; the form of a certificate.
 
 
 The dance and the claims
@@ -30,7 +30,10 @@ All numbers are in metres, seconds and radians, and exactly those that stand in 
                   chord, nothing touches from start to stop; and, if it says so, in one pose whose holes are within
                   `shown` of their places two benches overlap.
 Paths are a spiral, a turn (13.), and a route: lines, arcs and coils, each moved so that it continues the one before
-it in place and direction, as far as they miss one another by at most 1e-9. Beyond its ends it continues.
+it in place and direction, as far as they miss one another by at most 1e-9; only a line may meet the line before it at
+an angle, a corner. Beyond its ends a route continues. If it has corners, or bends more tightly than 9. allows, it is
+also shown that every bench follows: its rear handle goes forwards and never jumps, at an angle from the bench whose
+cosine is more than 0.0447 (87.438 degrees).
 
 A certificate has `dragon`, runs of benches alike from the head on as [how many, length, width, overhang]; `claim`;
 what the claim needs in `overlap` (6., 8., 16.); and the `sweeps`, u + 1 with u = `repeats_from` (5.): sweep a has the
@@ -221,6 +224,21 @@ farther along -n than the corner where these meet. So 3. needs the corners of al
 16. A pose
 ----------
 It is given by its first handle and the heading of every bench, so that each chord is exact.
+
+17. Tight bends and corners
+---------------------------
+Let D(z, y) be the distance of the points at the places z and y > z of a route, and u its direction from y to z; T is
+the direction of travel, at a corner those on both sides. Where y grows, D grows at the rate u.T(y); where z grows, it
+falls at the rate u.T(z). Each place y1 between z and y2 is *short* of y2 if D(z, y) < c all over some piece of the
+route that holds y1, or D grows all over it: going from y2, where D <= c, piece by piece towards z, D stays below c. So
+y2 with D = c is the first place behind, f(z), if all places between are short of it.
+Over a stretch z in [m, M], let p = f(m) and q = f(M) with p <= q, u.T(z) > 0 and u.T(y) > 0 for all these z and all y
+in [p, q], and let all places between m and p be short of p for all these z. Then D(z, p) <= D(m, p) = c = D(M, q) <=
+D(z, q), and D grows from p to q: there is one place in [p, q] at the distance c, and none between z and p. So f(z) is
+there, f is continuous and rises, handles between are enclosed by those at the two ends, and between corners f' =
+cos(alpha) / cos(beta) > 0. As u.T(y) is cos(beta) at y = f(z) and u.T(z) is cos(alpha), angles and points of the whole
+stretch enclose alpha and beta; the rates of 9. do so too, with the curvature at the handle, unless it passes a corner.
+There the velocities of 10. jump, but places do not: 3. and 11. need the rates only between the jumps.
 """
 
 import argparse
@@ -294,8 +312,8 @@ def exactly(number):
     return Interval((over << BITS) // under, -((-over << BITS) // under))
 
 
-def hull(x, *others):
-    return Interval(min(x.lo, *(y.lo for y in others)), max(x.hi, *(y.hi for y in others)))
+def hull(*values):
+    return Interval(min(x.lo for x in values), max(x.hi for x in values))
 
 
 def around(x):
@@ -310,8 +328,10 @@ def sqrt(x):
 
 
 ZERO, HALF, ONE, TWO = (exactly(number) for number in (0, 0.5, 1, 2))
-# Shortest piece of a route, largest gap of a joint [m] or kink [rad], largest curvature times a chord [1].
-SHORTEST, JOINED, TIGHTEST = exactly(1e-6), exactly(1e-9), exactly(1.998)
+# Shortest piece of a route, largest gap of a joint [m] or kink [rad].
+SHORTEST, JOINED = exactly(1e-6), exactly(1e-9)
+# Largest curvature times a chord for which 9. is used, cos(beta) that 17. needs [1], and the work that 17. may take.
+GENTLE, FOLLOWS, PARTS_MOST, STEPS_MOST = exactly(Fraction("1.9980001")), exactly(Fraction("0.0447")), 2_000, 2_000
 PI = exactly(Fraction(31415926535897932384626433832795028841971693993751, 10**49)) + Interval(-1, 1)
 
 
@@ -427,7 +447,7 @@ class Bench:
 class Chain:
     """The dragon on a spiral: growth b, start, every bench, the longest chord, the largest h, the margin."""
 
-    floor = 0
+    floor, gentle = 0, True
 
     def __init__(self, runs, pitch, turns, margin=0):
         self.margin = exactly(margin)
@@ -636,9 +656,12 @@ def pointing(angle):
 
 
 class Piece:
-    """A line (radius None) or an arc of a route, 9.; its parameter is the place z itself. sign: 1 if it turns left."""
+    """A line (radius None) or an arc of a route, 9.; its parameter is the place z itself. sign: 1 if it turns left.
 
-    index = 0
+    turn: the turn of a corner at its beginning, None without one
+    """
+
+    index, turn = 0, None
 
     def __init__(self, length, radius=None, sign=1):
         self.length, self.radius, self.sign = length, radius, exactly(sign)
@@ -668,6 +691,9 @@ class Piece:
 
     def curvature(self, t):
         return ZERO if self.radius is None else self.sign / self.radius
+
+    def sharpest(self):
+        return abs(self.curvature(ZERO))
 
     def behind(self, t, bench):
         if self.radius is None:
@@ -729,9 +755,15 @@ class Coil(Piece):
         return self.growth * sqrt(ONE + abs(t) * abs(t))
 
     def curvature(self, t):
-        square = ONE + self.theta(t) * self.theta(t)
-        size = (square + ONE) / (square * sqrt(square)) / self.growth
+        size = self.bend(self.theta(t))
         return ZERO - size if self.inwards else size
+
+    def bend(self, theta):
+        square = ONE + theta * theta
+        return (square + ONE) / (square * sqrt(square)) / self.growth
+
+    def sharpest(self):
+        return highest([self.bend(abs(end)) for end in (self.first, self.last)])
 
     def behind(self, t, bench):
         needed = bench.chord / self.growth * (bench.chord / self.growth)
@@ -767,7 +799,7 @@ class Path:
         for k, piece in enumerate(pieces[1:], 1):
             piece.index = k
             start, end = self.ends(k)
-            piece.rotation = pieces[k - 1].tangent(end) * piece.tangent(start).back()
+            piece.rotation = pieces[k - 1].tangent(end) * piece.tangent(start).back() * (piece.turn or Complex(ONE))
             piece.shift = pieces[k - 1].point(end) - piece.point(start)
 
     def ends(self, k):
@@ -795,9 +827,7 @@ class Path:
 
     def behind(self, front, bench):
         """The first place behind at the chord of a bench, 9."""
-        LEFT[0] -= 1
-        if LEFT[0] < 0:
-            raise Refused("not proven: this is too much work for this verifier")
+        spend()
         piece, t = front
         try:
             rear = piece, piece.behind(t, bench)
@@ -807,9 +837,26 @@ class Path:
         if not stays:
             rear = self.on_earlier(front, bench.chord)
         length = rear[0].place(rear[1]) - piece.place(t)
-        if not (length > ZERO and abs(self.curvature(front, rear)) * length < PI):
+        if self.gentle(front, rear, bench.chord):
+            first = abs(self.curvature(front, rear)) * length < PI
+        else:
+            first = all_short(piece.point(t), self.parts(front, rear), bench.chord)
+        if not (length > ZERO and first):
             raise Loose("not proven: a next handle is not shown to be the first behind")
         return rear
+
+    def gentle(self, front, rear, chord):
+        """True if 9. serves from one place back to another."""
+        corners = [piece for piece in self.pieces[rear[0].index + 1 : front[0].index + 1] if piece.turn]
+        return not corners and abs(self.curvature(front, rear)) * chord < GENTLE
+
+    def parts(self, front, rear):
+        """The pieces from one place back to another, with the parameters of all that is between."""
+        found = []
+        for piece in self.pieces[rear[0].index : front[0].index + 1]:
+            ahead = front[1] if piece is front[0] else self.ends(piece.index + 1)[1]
+            found.append((piece, hull(ahead, rear[1] if piece is rear[0] else self.ends(piece.index)[0])))
+        return found
 
     def on_earlier(self, front, chord):
         """A place at a chord on a piece before that of the front handle."""
@@ -819,18 +866,54 @@ class Path:
             end = self.ends(k + 1)[1]
             t = middle_of(end)
             step = max(0.0, z + float(chord) - float(piece.low)) / float(piece.slope(t))
-            t = meeting(piece, point, chord, t + exactly(step))
+            guess = reaching(piece, point, float(chord), float(t) + step)
+            t = None if guess is None else meeting(piece, point, chord, guess)
             if t and self.holds(piece, piece.place(t)):
                 return piece, t
         raise Loose("not proven: no next handle is found across a joint")
+
+
+def reaching(piece, point, chord, t):
+    """Guess, in floats, of the first parameter from t on at which a piece is a chord away from a point."""
+    least = min(chord, float(piece.length)) / 256.0
+    for _ in range(STEPS_MOST):
+        spend()
+        left = chord - float(abs(piece.point(exactly(t)) - point))
+        if left <= 0.0:
+            return t
+        if piece.index and float(piece.place(exactly(t))) > float(piece.high) + least:
+            return None
+        t += max(left, least) / float(piece.slope(exactly(t)))
+    return None
+
+
+def all_short(point, parts, chord):
+    """True if all places of these parts are short of their end, for all these points, by 17."""
+    left = list(parts)
+    for _ in range(PARTS_MOST):
+        if not left:
+            return True
+        spend()
+        piece, t = left.pop()
+        to, ahead = point - piece.point(t), piece.tangent(t)
+        if not (abs(to) < chord or to.x * ahead.x + to.y * ahead.y > ZERO):
+            middle = (t.lo + t.hi) >> 1
+            left += [(piece, Interval(t.lo, middle)), (piece, Interval(middle, t.hi))]
+    return False
+
+
+def spend():
+    LEFT[0] -= 1
+    if LEFT[0] < 0:
+        raise Refused("not proven: this is too much work for this verifier")
 
 
 def middle_of(x):
     return Interval((x.lo + x.hi) >> 1, (x.lo + x.hi) >> 1)
 
 
-def meeting(piece, point, chord, t):
-    """The parameter at which a piece passes a distance from a point; None if none is found."""
+def meeting(piece, point, chord, guess):
+    """The parameter near a guess at which a piece passes a distance from a point; None if none is found."""
 
     def excess(t):
         to = piece.point(t) - point
@@ -841,7 +924,6 @@ def meeting(piece, point, chord, t):
         return (ZERO - TWO) * (to.x * ahead.x + to.y * ahead.y) * piece.slope(t)
 
     try:
-        guess = float(t)
         for _ in range(40):
             here = exactly(guess)
             step = float(middle_of(excess(here))) / (float(middle_of(slope(here))) or 1.0)
@@ -861,6 +943,8 @@ class RouteChain(Chain):
     def __init__(self, runs, path, margin=0):
         super().__init__(runs, 1, 0, margin)
         self.path, self.poses = path, {}
+        longest = Interval(self.chord.hi, self.chord.hi)
+        self.gentle = all(not piece.turn and piece.sharpest() * longest < GENTLE for piece in path.pieces)
 
     def row(self, bench, low, high=None):
         return RouteRow(self, bench, low, high) if high else Pose(self, bench, low)
@@ -939,14 +1023,21 @@ class RouteRow:
             pose.grow_to(k + 1)
         low, high = self.ends
         bench, front, rear, speed = low.placed[k][0], low.handles[k], high.handles[k + 1], self.speeds[k]
-        if front[0] is rear[0] and not isinstance(front[0], Coil):
+        gentle = self.chain.path.gentle(front, rear, bench.chord)
+        if gentle and front[0] is rear[0] and not isinstance(front[0], Coil):
             bent = front[0].curvature(ZERO)
             half = abs(bent) * bench.chord * HALF
             self.placed.append((Complex(speed * sqrt(ONE - half * half)), speed * bent))
             self.speeds.append(speed)
             return self
-        bent = self.chain.path.curvature(front, rear)
-        alpha, beta = self.from_ends(k, half_angle(bent, bench.chord), bent, bench.chord)
+        if gentle:
+            bent = self.chain.path.curvature(front, rear)
+            alpha = half_angle(bent, bench.chord)
+            alpha, beta = self.from_ends(k, (alpha, ZERO - alpha), (bent, bent), bench.chord)
+        else:
+            alpha, beta = self.from_ends(k, *self.followed(k, bench.chord), bench.chord)
+            if not cos(beta) > FOLLOWS:
+                raise Loose("not proven: a rear handle is not shown to go forwards")
         ratio = cos(alpha) / cos(beta)
         across = ratio * sin(beta)
         self.placed.append(
@@ -955,16 +1046,38 @@ class RouteRow:
         self.speeds.append(speed * ratio)
         return self
 
-    def from_ends(self, k, alpha, bent, chord):
+    def followed(self, k, chord):
+        """alpha and beta of bench k over the stretch by 17., and the curvatures at its handles, None past a corner."""
+        path, (low, high) = self.chain.path, self.ends
+        points, leans, bends = [], [], []
+        parts = [path.parts(low.handles[i], high.handles[i]) for i in (k, k + 1)]
+        for these in parts:
+            point = these[0][0].point(these[0][1])
+            for piece, t in these[1:]:
+                point = point.joined(piece.point(t))
+            points.append(point)
+        back = (points[0] - points[1]).back()
+        for these in parts:
+            ways = [back * piece.tangent(t) for piece, t in these]
+            leans.append(hull(*(atan(way.y / way.x) for way in ways)))  # refuses to divide where u.T may be 0
+            cornered = any(piece.turn for piece, _ in these[1:])
+            bends.append(None if cornered else hull(*(piece.curvature(t) for piece, t in these)))
+        short = all_short(points[0], path.parts(low.handles[k], low.handles[k + 1]), chord)
+        if not short or low.places[k + 1].hi > high.places[k + 1].lo:
+            raise Loose("not proven: a bench is not shown to follow")
+        return leans, bends
+
+    def from_ends(self, k, wides, bends, chord):
         """alpha and beta of bench k between the ends, 9."""
         low, high = self.ends
         half_way = (high.places[k] - low.places[k]) * HALF
-        ratio = cos(alpha) / cos(alpha)
-        rotating = (sin(alpha) + ratio * sin(alpha)) / chord
+        alpha, beta = wides
+        ratio = cos(alpha) / cos(beta)
+        rotating = (sin(alpha) - ratio * sin(beta)) / chord
         found = []
-        wides, rates = (alpha, ZERO - alpha), (bent - rotating, ratio * bent - rotating)
-        for first, last, wide, rate in zip(high.angles(k), low.angles(k), wides, rates, strict=True):
-            near = hull(first, last) + around(rate) * half_way
+        ends = zip(high.angles(k), low.angles(k), wides, (ONE, ratio), bends, strict=True)
+        for first, last, wide, factor, bent in ends:
+            near = wide if bent is None else hull(first, last) + around(factor * bent - rotating) * half_way
             found.append(Interval(max(near.lo, wide.lo), min(near.hi, wide.hi)))
         return found
 
@@ -974,7 +1087,7 @@ class RouteRow:
         piece, t = self.ends[0].handles[count]
         if not (isinstance(first, Coil) and first.inwards and piece is first and count >= 2):
             return False
-        if not abs(piece.curvature(t)) * self.chain.chord < TWO:
+        if not abs(piece.curvature(t)) * self.chain.chord < GENTLE:
             return False
         outer = ZERO
         for k in (0, 1):
@@ -1051,8 +1164,6 @@ def half_angle(bent, chord):
     lengths = []
     for most in (sharpest, Interval(gentlest, gentlest)):
         half = most * chord * HALF
-        if not half < ONE:
-            raise Loose("not proven: a bend is too tight for a bench")
         lengths.append(TWO * arcsine(half) / most if most > ZERO else chord)
     return bent * hull(*lengths) * HALF
 
@@ -1333,6 +1444,11 @@ def never(chain):
     return f"no two benches except neighbours {near}"
 
 
+def following(chain):
+    forwards = ", where every rear handle goes forwards, less than 87.44 degrees off its bench, and never jumps"
+    return "" if chain.gentle else forwards
+
+
 def collision_time(runs, claim, overlap, *rest):
     path = {"kind": "spiral", "pitch": claim["pitch"], "start_turns": claim["start_turns"]}
     return contact(runs, claim | {"path": path, "start": 0.0}, overlap, *rest)
@@ -1341,12 +1457,17 @@ def collision_time(runs, claim, overlap, *rest):
 def contact(runs, claim, overlap, *rest):
     chain, place = danced(runs, claim)
     start, time = claim["start"], claim["time"]
-    what = overlapping(chain, place(Fraction(time) + TIME_BRACKET), *overlap["benches"])
-    all_apart(chain, place(Fraction(start)), place(Fraction(time) - TIME_BRACKET), *rest)
+    after, before = (place(Fraction(time) + step) for step in (TIME_BRACKET, -TIME_BRACKET))
+    what = overlapping(chain, after, *overlap["benches"])
+    if not chain.gentle:
+        row = chain.row(0, after, before)  # between the two, too, every bench up to them follows
+        while len(row.placed) <= overlap["benches"][1]:
+            row.grow()
+    all_apart(chain, place(Fraction(start)), before, *rest, follows=not chain.gentle)
     clear = f"{never(chain)} from {start!r} s to {time!r} - 1e-10 s, and"
     if time - TIME_BRACKET <= start:
         clear = "within 2e-10 s of the start"
-    return f"{moving(claim)}: {clear} {what} at {time!r} + 1e-10 s"
+    return f"{moving(claim)}{following(chain)}: {clear} {what} at {time!r} + 1e-10 s"
 
 
 def clear_run(runs, claim, overlap, *rest):
@@ -1371,8 +1492,8 @@ def clear_run(runs, claim, overlap, *rest):
         ending[until] %= folding(chain, place(Fraction(stop)), place(later))
     if until == "centre" and not chain.arc(chain.start) < exactly(later) * exactly(claim["head_speed"]):
         raise Refused("not proven: the head is not shown to reach the centre so soon")
-    all_apart(chain, place(Fraction(start)), place(Fraction(stop)), *rest)
-    return f"{moving(claim)}: {never(chain)} from {start!r} s to {stop!r} s{ending[until]}"
+    all_apart(chain, place(Fraction(start)), place(Fraction(stop)), *rest, follows=not chain.gentle)
+    return f"{moving(claim)}{following(chain)}: {never(chain)} from {start!r} s to {stop!r} s{ending[until]}"
 
 
 def tolerance(runs, claim, overlap, *rest):
@@ -1446,13 +1567,8 @@ def stand(chain):
 
 
 def follow(chain, start, stop):
-    """Check that the whole dragon is on the route from a place of the head to another, and no bend is too tight."""
+    """Check that the whole dragon is on the route from a place of the head to another."""
     pieces = chain.path.pieces
-    longest = Interval(chain.chord.hi, chain.chord.hi)
-    for piece in pieces:
-        ends = (piece.first, piece.last) if isinstance(piece, Coil) else (ZERO,)
-        if any(abs(piece.curvature(t)) * longest > TIGHTEST for t in ends):
-            raise Refused(f"{MALFORMED}: the path bends too tightly for a bench")
     tail = chain.places_behind(0, start, len(chain.benches))[-1]
     coils = isinstance(pieces[0], Coil) and pieces[0].inwards
     rounding = abs(pieces[-1].low) * exactly(2.0**-50)  # the end of a route is known to a double
@@ -1492,10 +1608,17 @@ def route_path(path):
         ends = [(piece.point(t), piece.tangent(t)) for t in (start, end)]
         if piece.length < SHORTEST:
             raise Refused(f"{MALFORMED}: claim.path.pieces[{k}] is too short")
+        if before and straight(piece) and straight(given[k - 1][0]) and not abs(ends[0][1] - before[1]) < JOINED:
+            piece.turn = ends[0][1] * before[1].back()
+            before = before[0], ends[0][1]
         if before and any(abs(to - at) > JOINED for to, at in zip(ends[0], before, strict=True)):
             raise Refused(f"{MALFORMED}: claim.path.pieces[{k}] does not begin where the piece before it ends")
         before, piece.shift, piece.rotation = ends[1], Complex(ZERO), Complex(ONE)
     return Path([piece for piece, _, _ in given], 0, exactly(path["start"]), *given[0][1:])
+
+
+def straight(piece):
+    return not isinstance(piece, Coil) and piece.radius is None
 
 
 def piece_of(kind, **given):

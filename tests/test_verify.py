@@ -3,6 +3,7 @@
 import ast
 import itertools
 import json
+import math
 import random
 import re
 import runpy
@@ -12,13 +13,20 @@ import sys
 import pytest
 from flint import arb, ctx, fmpz
 
-from core import Dance, Dragon, Spiral, first_contact
+from core import Dance, Dragon, Line, Route, Spiral, first_contact
+from core.errors import ProofRefused
 from core.proof import chain, prove_collision_time, prove_minimum_pitch
-from tests.campaigns.differential import MAKERS, hunt, made, proven_by_core, proven_by_second, second
+from core.proof.certificate import PRECISION
+from core.proof.paths import chain_on, recorded_path
+from core.proof.sweeps import proven_sweeps, searched_stretches
+from core.values import unheard
+from tests.campaigns.differential import MAKERS, fitted, hunt, made, proven_by_core, proven_by_second, second
 from tests.conftest import ROOT
+from tests.core.paths.test_following import U_TURN
 from tests.core.proof.test_claims import OF_GRAZE
 from tests.support.depth import DEEP, examples, some, thorough
-from tests.support.forgeries import DROPPED, FORGERIES, forged, stretches
+from tests.support.forgeries import DROPPED, FORGERIES, OVER_BENDS, forged, stretches
+from tests.support.proof_routes import cornered
 from tests.support.reference_contacts import graze, random_contact, small
 
 VERIFY = ROOT / "examples" / "verify.py"
@@ -26,6 +34,7 @@ PATIENCE = 600.0  # [s]: only against a run that would hang
 ARITHMETIC_CASES = 300
 CHANGED = examples(100, 2_000)
 BEND_WIDTH_MOST = 1e-20  # far below what the proofs need, about 1e-14 [rad]
+NEAR_BEND = 1e-3  # from the place beyond which a bench cannot follow [m]
 SLOW = ("stray", "stray with a pose", "minimum pitch at a fold")
 
 
@@ -104,6 +113,51 @@ OWN_WORDS = dict.fromkeys(("delete sweeps.1", "repeat sweeps.-1", "reverse sweep
 @pytest.mark.parametrize("change, reason", [*DROPPED, *thorough(*FORGERIES[len(DROPPED) :])])
 def test_a_forged_certificate_is_refused(change, reason):
     assert_verdict(forged(small(), change), OWN_WORDS.get(str(change), reason))
+
+
+@pytest.mark.parametrize("name, change, reason", OVER_BENDS)
+def test_a_forged_certificate_over_a_bend_is_refused(name, change, reason):
+    assert_verdict(forged(made(name), change), "not proven|malformed")
+
+
+def lines(*points):
+    """A path of lines as a certificate writes it, which core refuses at corners of 90 degrees and more."""
+    pieces = [{"kind": "line", "start": [*start], "end": [*end]} for start, end in itertools.pairwise(points)]
+    return {"kind": "route", "start": 0.0, "pieces": pieces}
+
+
+# Paths, with the place of the head up to which a bench of the contest's head follows [m].
+UNFOLLOWED = {
+    "the leader would go backwards at a corner": (lines((0.0, 0.0), (9.0, 0.0), (8.9, 5.0)), 9.0),
+    "a path that turns back": (lines((0.0, 0.0), (9.0, 0.0), (0.0, 0.0)), 9.0),
+    "the rear handle would go across the bench": (
+        recorded_path(Route([Line((0.0, 0.0), (8.0, 0.0)), *U_TURN])),
+        8.0 + 0.9 * math.acos(-0.9 / (2.86 - 0.9)),
+    ),
+    "the rear handle would jump": (recorded_path(cornered([8.0, 0.55, 0.5, 8.0], [72.0, 24.0, 13.5])), 10.9516),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", UNFOLLOWED)
+def test_neither_checker_proves_that_a_bench_follows_where_it_cannot(name):
+    """Both prove the way up to there, and neither a last stretch that is made up."""
+    path, last = UNFOLLOWED[name]
+    claim = {"kind": "clear", "path": path, "head_speed": 1.0, "start": 5.0, "stop": last - NEAR_BEND, "until": "stop"}
+    bench = chain_on(Dragon(1), path, 0.0)
+
+    def sweeps(to):
+        with ctx.workprec(PRECISION):
+            high, low = -math.nextafter(5.0, 0.0), -math.nextafter(to, 99.0)
+            return proven_sweeps(bench, high, low, 0, searched_stretches(bench), unheard, follows=True)
+
+    content = made("two benches at a corner") | {"dragon": [[1, 3.41, 0.3, 0.275]], "claim": claim}
+    content["sweeps"] = sweeps(claim["stop"])
+    assert proven_by_second(fitted(content))[0]
+    with pytest.raises(ProofRefused, match="not proven where handle 0 is at s = "):
+        sweeps(last + NEAR_BEND)
+    claim["stop"] = last + NEAR_BEND
+    content["sweeps"][0]["stretches"].append([content["sweeps"][0]["stretches"][-1][1], -claim["stop"], ""])
+    assert_verdict(fitted(content), "not proven")
 
 
 def half_turned(content):

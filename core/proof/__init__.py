@@ -98,6 +98,22 @@ of travel phi and the direction psi of the chord, alpha = phi - psi at the front
      is no farther from the centre than half the sum of w and its distances at both ends.
      core/proof/paths.py describes how the pieces are joined.
 
+Tight bends and corners. 8. serves while K c < 1.9980001, which every bend does that is always followed, and without a
+corner. Elsewhere let D(z, y) be the distance of the points at the places z and y > z, u the direction from y to z, T
+that of travel, at a corner those on both sides. D grows with y at the rate u . T(y), and falls with z at u . T(z).
+ 18. A place y1 between z and y2 is short of y2 if D(z, y) < c over some part of the path that holds y1, or D grows with
+     y all over it. From y2, where D <= c, back to z, part by part, D stays below c: if all places between are short of
+     y2 and D(z, y2) = c, then y2 = f(z). Over a stretch z in [m, M], let p = f(m) <= q = f(M), u . T(z) > 0 and u .
+     T(y) > 0 for all these z and all y in [p, q], and all places between m and p short of p for all these z. Then D(z,
+     p) <= D(m, p) = c = D(M, q) <= D(z, q), D grows from p to q, and it is less than c between z and p: f(z) is the
+     only place in [p, q] at distance c. So f is continuous and rises, the chains at the two ends enclose those between,
+     and between corners f' = cos(alpha) / cos(beta) > 0, u . T(z) and u . T(y) being these cosines at y = f(z): points
+     and tangents of the whole stretch enclose alpha and beta. The rates of 8. do so too, with the curvature at the
+     handle, except where it passes a corner. There velocities jump, but no place does: 4. and 10. hold, because g and q
+     change by the integral of their rates. Besides, cos(beta) > 0.0447 is proven, which follows from K c < 1.9980001 as
+     well. Of one or two benches, which have no pair, sweep 0 proves that they follow. At a contact a stretch over its
+     bracket proves that all benches up to the two that meet follow there, too.
+
 Fold. The claim: bench k folds while the head goes from theta = M in to m, where its handle k is at t(m). (A minimum
 pitch need not prove how the dance gets to M: if a bench folds earlier, the head does not reach the circle either.)
  12. Until bench k folds, all handles up to k follow continuously, and so does the angle d of bench k, from d1 on. Let

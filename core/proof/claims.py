@@ -47,8 +47,11 @@ class Claim:
 
     kind: ClassVar[str]
     search_share: ClassVar[float] = 0.0
-    follows: ClassVar[bool] = False
     dragon: Dragon
+
+    @property
+    def follows(self) -> bool:
+        return False
 
 
 @dataclass(frozen=True)
@@ -112,9 +115,12 @@ class MinimumPitchClaim(SpiralClaim):
 
     kind: ClassVar[str] = "minimum-pitch"
     search_share: ClassVar[float] = 0.5
-    follows: ClassVar[bool] = True
     turning_radius: float
     margin: float = 0.0
+
+    @property
+    def follows(self) -> bool:
+        return True
 
     def __post_init__(self) -> None:
         path, radius = Spiral(self.pitch, self.start_turns), checked_size("turning_radius", self.turning_radius)

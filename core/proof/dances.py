@@ -17,6 +17,7 @@ from core.proof.fold import folding
 from core.proof.pairs import Unproven, above, below
 from core.proof.paths import chain_on, core_path, path_words
 from core.proof.route import RouteChain
+from core.proof.route_stretch import RouteStretch
 from core.proof.sweeps import AnyChain
 from core.proof.words import apart_words, contact_words, danced_words
 from core.quantities import Given, format_number
@@ -34,6 +35,24 @@ class DanceClaim(Claim):
     path: Mapping[str, Any]
     head_speed: float
     start: float
+
+    @property
+    def chain(self) -> AnyChain:
+        raise NotImplementedError
+
+    @property
+    def follows(self) -> bool:
+        return isinstance(self.chain, RouteChain) and not self.chain.gentle
+
+    @property
+    def _danced(self) -> str:
+        danced = danced_words(self.dragon, self.head_speed, path_words(self.path))
+        if not self.follows:
+            return danced
+        words = (
+            "{danced}, where every rear handle goes forwards, less than 87.44 degrees off its bench, and never jumps"
+        )
+        return say(words, danced=danced)
 
 
 @dataclass(frozen=True)
@@ -69,10 +88,9 @@ class DanceClearClaim(DanceClaim):
         return {}
 
     def verify_overlap(self, overlap: dict[str, Any]) -> str:
-        dance = danced_words(self.dragon, self.head_speed, path_words(self.path))
         return say(
             "{dance}: {apart} from {start} s to {stop} s{ending}.",
-            dance=dance, apart=apart_words(self.margin), start=format_number(self.start),
+            dance=self._danced, apart=apart_words(self.margin), start=format_number(self.start),
             stop=format_number(self.stop), ending=self._ending(),
         )  # fmt: skip
 
@@ -117,9 +135,12 @@ class DanceContactClaim(DanceClaim):
         return self.chain.place_after((self.time + arb(TIME_BRACKET)) * self.head_speed)
 
     @property
+    def _before(self) -> arb:
+        return (self.time - arb(TIME_BRACKET)) * self.head_speed
+
+    @property
     def way(self) -> tuple[float, float]:
-        before = (self.time - arb(TIME_BRACKET)) * self.head_speed
-        return _way(self.chain, arb(self.start) * self.head_speed, before)
+        return _way(self.chain, arb(self.start) * self.head_speed, self._before)
 
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
         return {"benches": near_pair(self.chain, self._after, self.time)}
@@ -127,10 +148,14 @@ class DanceContactClaim(DanceClaim):
     def verify_overlap(self, overlap: dict[str, Any]) -> str:
         a, b = overlap["benches"]
         verify_near(self.chain, self._after, a, b, when=soon_after(self.time))
+        chain = self.chain
+        if isinstance(chain, RouteChain) and self.follows:
+            bracket = RouteStretch(chain, 0, below(self._after), above(chain.place_after(self._before)), chain.count)
+            while len(bracket.placed) <= b:
+                bracket.grow()
         clear = bool(self.time - arb(TIME_BRACKET) > self.start)
         words = contact_words([a, b], self.margin, self.start, self.time, TIME_BRACKET, clear=clear)
-        danced = danced_words(self.dragon, self.head_speed, path_words(self.path))
-        return say("{name}: {text}", name=danced, text=words)
+        return say("{name}: {text}", name=self._danced, text=words)
 
 
 def last_stop(dance: Dance) -> tuple[float, str]:

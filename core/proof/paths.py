@@ -2,13 +2,15 @@
 
 The numbers of a spiral and of the turn define them exactly: the turn's arcs are computed in balls. The pieces of a
 route meet to within 1e-9 m and 1e-9 rad only, so the route of a proof is joined exactly: each piece keeps its shape and
-is moved and rotated so that it continues the one before it in place and direction. The first piece continues backwards
+is moved and rotated so that it continues the one before it in place and direction; a line that meets the line before it
+at a corner keeps the angle between their directions. The first piece continues backwards
 and the last one forwards.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import pairwise
 from typing import Any
 
 from flint import acb, arb
@@ -18,13 +20,13 @@ from core.errors import InvalidValue
 from core.language import Listed, counted, say
 from core.paths import pieces
 from core.paths.clothoid_turn import ClothoidTurn
-from core.paths.route import Route
+from core.paths.route import JOINT_KINK, Route
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.proof.chain import Chain
 from core.proof.route import BallCoil, BallPath, Piece, RouteChain, turned
 from core.proof.words import spiral_words
-from core.quantities import Parameter, Quantity, format_number
+from core.quantities import Parameter, format_number
 
 Record = Mapping[str, Any]
 
@@ -49,7 +51,6 @@ def recorded_path(path: Spiral | Route) -> dict[str, Any]:
         free = path.exit_radius != path.entry_radius
         names = (*(name for name in (FREE_TURN if free else TURN) if name != "start_turns"), "start_turns")
         return {"kind": "free_turn" if free else "turn"} | {name: getattr(path, name) for name in names}
-    _refuse_corners(path)
     recorded = []
     for k, piece in enumerate(path.pieces):
         if not isinstance(piece, pieces.Line | pieces.Arc | pieces.Coil):
@@ -91,17 +92,7 @@ def core_path(record: Record) -> Spiral | Route:
             parts.append(made(**values))
         except InvalidValue as error:  # a piece does not name the route around its fields
             raise error.with_field(".".join([f"path.pieces.{k}", *error.field.split(".")[1:]])) from error
-    route = Route(parts, record["start"])
-    _refuse_corners(route)
-    return route
-
-
-def _refuse_corners(path: Route) -> None:
-    """raises: InvalidValue for a path with a corner, which its pieces would lose when they are joined smoothly"""
-    if len(path.corners):
-        rule = "path must be smooth at {at}, where it has a corner, for a proof in ball arithmetic"
-        why = "on such a path a dance is checked in double precision, with bounds on its rounding"
-        raise InvalidValue.in_words("path", rule, reason=why, at=Quantity(float(path.corners[0]), "m", 6))
+    return Route(parts, record["start"])
 
 
 def path_words(record: Record) -> str:
@@ -134,6 +125,10 @@ def chain_on(dragon: Dragon, record: Record, margin: float) -> Chain | RouteChai
     if record["kind"] in ("turn", "free_turn"):
         return RouteChain(dragon, (_turn_path if record["kind"] == "turn" else _free_turn_path)(record), margin)
     placed = [_piece(piece) for piece in record["pieces"]]
+    for (before, _, rotation), (after, _, then) in pairwise(placed):
+        if type(before) is type(after) is Piece and before.curvature == after.curvature == 0:
+            turn = then / rotation
+            after.turn = turn if abs(turn - 1) > JOINT_KINK else after.turn
     path = BallPath([piece for piece, _, _ in placed], (0, arb(record["start"])), *placed[0][1:])
     return RouteChain(dragon, path, margin)
 

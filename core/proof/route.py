@@ -17,6 +17,13 @@ from core.quantities import Quantity, format_number
 
 # Newton steps towards a guess in doubles: each doubles the digits.
 GUESS_STEPS = 40
+# Largest number of steps backwards to the first point a chord away, of at least this part of the chord or the piece.
+BACK_STEPS, BACK_PART = 2000, 1 / 256
+# Largest curvature times chord for which 8. serves, a little more than that of every bend that is always followed;
+# beyond it, and over corners, 18. does, with a cosine of more than this at the rear handle, that of 87.438 degrees [1].
+GENTLE_MOST, REAR_COSINE_LEAST = "1.9980001", "0.0447"
+# Largest number of parts of a path that are shown to be less than a chord away.
+PARTS_MOST = 2000
 
 
 def turned(angle: arb) -> acb:
@@ -29,6 +36,7 @@ class Piece:
     """A line or an arc of one curvature [1/m], length [m]; its parameter is the place z = -s [m] itself.
 
     high, low: places where it begins and ends [m]; shift, rotation: its beginning in the world; index: in the route
+    turn: by which its direction differs at its beginning from the end of the piece before it, 1 but at a corner
     A place falls as the dance goes on: the point is at high - z along the piece.
     """
 
@@ -38,6 +46,7 @@ class Piece:
     low: arb = field(default_factory=arb)
     shift: acb = field(default_factory=acb)
     rotation: acb = field(default_factory=lambda: acb(1))
+    turn: acb = field(default_factory=lambda: acb(1))
     index: int = 0
 
     def param(self, z: arb) -> arb:
@@ -68,13 +77,18 @@ class Piece:
         """The curvature at a parameter [1/m]."""
         return self.curvature
 
-    def behind(self, t: arb, chord: arb) -> arb:
-        """The parameter of the first point behind that is a chord away, if the piece is long enough."""
+    @property
+    def sharpest(self) -> arb:
+        """The largest |curvature| [1/m]."""
+        return abs(self.curvature)
+
+    def behind(self, t: arb, chord: arb) -> arb | None:
+        """The parameter of the first point behind that is a chord away, if the piece is long and wide enough."""
         half = abs(self.curvature) * chord / 2
         if self.curvature == 0:
             return t + chord
         if not half < 1:
-            raise Unproven("a bend is tighter than half a chord, for which there is no certificate yet")
+            return None
         return t + 2 * half.asin() / abs(self.curvature)
 
 
@@ -124,16 +138,24 @@ class BallCoil(Piece):
         return coil_slope(self.growth, t)
 
     def curvature_at(self, t: arb) -> arb:
-        square = 1 + self._theta(t) ** 2
-        size = (square + 1) / (square * square.sqrt()) / self.growth
+        size = self._bend(self._theta(t))
         return -size if self.inwards else size
 
-    def behind(self, t: arb, chord: arb) -> arb:
+    def _bend(self, theta: arb) -> arb:
+        square = 1 + theta**2
+        return (square + 1) / (square * square.sqrt()) / self.growth
+
+    @property
+    def sharpest(self) -> arb:
+        return self._bend(abs(self.first)).max(self._bend(abs(self.last)))
+
+    def behind(self, t: arb, chord: arb) -> arb | None:
         return t + delta(t, (chord / self.growth) ** 2)
 
 
 class BallPath:
-    """Pieces in the order they are danced, each moved so that it continues the one before in place and direction.
+    """Pieces in the order they are danced, each moved so that it continues the one before in place and direction, but
+    for the turn of a corner.
 
     anchor: (piece, place where it begins [m]); the first piece continues backwards, and the last one forwards
     """
@@ -152,7 +174,7 @@ class BallPath:
         for k, (before, piece) in enumerate(pairwise(self.pieces), 1):
             piece.index = k
             start, end = self.ends(k)
-            piece.rotation = before.tangent(end) / piece.tangent(start)
+            piece.rotation = piece.turn * before.tangent(end) / piece.tangent(start)
             piece.shift = before.point(end) - piece.point(start)
 
     def ends(self, k: int) -> tuple[arb, arb]:
@@ -182,16 +204,50 @@ class BallPath:
         hull = reduce(arb.union, bends)
         return hull.lower(), hull.upper()
 
+    def gentle(self, front: tuple[Piece, arb], rear: tuple[Piece, arb], chord: arb) -> bool:
+        """Whether 8. serves from a place back to another one: no bend is too tight for it, and no corner is there."""
+        if any(self.pieces[k].turn != 1 for k in range(rear[0].index + 1, front[0].index + 1)):
+            return False
+        low, high = self.curvature(front, rear)
+        return bool(abs(low).max(abs(high)) * chord < arb(GENTLE_MOST))
+
+    def between(self, front: tuple[Piece, arb], rear: tuple[Piece, arb]) -> list[tuple[Piece, arb]]:
+        """The pieces from a place back to another one, each with all its parameters there."""
+        first, last, parts = front[0].index, rear[0].index, []
+        for k in range(first, last - 1, -1):
+            start = front[1] if k == first else self.ends(k + 1)[1]
+            end = rear[1] if k == last else self.ends(k)[0]
+            parts.append((self.pieces[k], start.union(end)))
+        return parts
+
+    @staticmethod
+    def all_near(point: acb, parts: Sequence[tuple[Piece, arb]], chord: arb) -> bool:
+        """Whether the end of these parts is the first place behind that can be a chord away from a point (18.)."""
+        left = list(parts)
+        for _ in range(PARTS_MOST):
+            if not left:
+                return True
+            piece, t = left.pop()
+            to = point - piece.point(t)
+            if not (abs(to) < chord or (to * piece.tangent(t).conjugate()).real > 0):
+                left += [(piece, t.lower().union(t.mid())), (piece, t.mid().union(t.upper()))]
+        return False
+
     def behind(self, front: tuple[Piece, arb], chord: arb) -> tuple[Piece, arb]:
-        """The first place behind that is a chord away (8.), as piece and parameter."""
+        """The first place behind that is a chord away (8., 18.), as piece and parameter."""
         piece, t = front
-        rear = piece, piece.behind(t, chord)
-        if not self.holds(piece, piece.place(rear[1])):
+        within = piece.behind(t, chord)
+        if within is not None and self.holds(piece, piece.place(within)):
+            rear = piece, within
+        else:
             rear = self._on_earlier(front, chord)
         length = rear[0].place(rear[1]) - piece.place(t)
-        low, high = self.curvature(front, rear)
-        sharpest = abs(low).max(abs(high))
-        if not (length > 0 and sharpest * length < arb.pi()):
+        if self.gentle(front, rear, chord):
+            low, high = self.curvature(front, rear)
+            first = abs(low).max(abs(high)) * length < arb.pi()
+        else:
+            first = self.all_near(piece.point(t), self.between(front, rear), chord)
+        if not (length > 0 and first):
             raise Unproven("a next handle is not shown to be the first behind")
         return rear
 
@@ -202,12 +258,27 @@ class BallPath:
             piece, end = self.pieces[k], self.ends(k + 1)[1]
             # Start at the place at which path and chord would have equal lengths.
             t = (end + (z + chord - piece.low).nonnegative_part() / piece.slope(end)).mid()
-            t = self._meeting(piece, point, chord, t)
-            if self.holds(piece, piece.place(t)):
-                return piece, t
-            if not piece.place(t) > piece.high:
-                break
+            guess = self._first_away(piece, point, chord, t)
+            if guess is not None:
+                t = self._meeting(piece, point, chord, guess)
+                if self.holds(piece, piece.place(t)):
+                    return piece, t
         raise Unproven("no next handle is found across a joint")
+
+    def _first_away(self, piece: Piece, point: acb, chord: arb, t: arb) -> arb | None:
+        """A guess of the first parameter of a piece from t on that is a chord away; None if there is none.
+
+        A distance changes by no more than the way, so what is left of the chord is a step that misses nothing.
+        """
+        least = chord.min(piece.length) * BACK_PART
+        for _ in range(BACK_STEPS):
+            left = chord - abs(piece.point(t) - point)
+            if not left > 0:
+                return t
+            if piece.index > 0 and piece.place(t) > piece.high + least:
+                return None
+            t = (t + left.max(least) / piece.slope(t)).mid()
+        return None
 
     def _meeting(self, piece: Piece, point: acb, chord: arb, t: arb) -> arb:
         """The place near a guess at which |piece - point| grows beyond the chord: one interval Newton step."""
@@ -227,13 +298,18 @@ class BallPath:
 
 
 class RouteChain(DragonOnPath["RoutePose"]):
-    """A dragon on a route. Its places are z = -s [m]."""
+    """A dragon on a route. Its places are z = -s [m].
+
+    gentle: whether 8. serves for all benches everywhere
+    """
 
     floor = -math.inf
 
     def __init__(self, dragon: Dragon, path: BallPath, margin: float = 0.0) -> None:
         super().__init__(dragon, margin)
         self.path = path
+        most = arb(GENTLE_MOST) / self.longest
+        self.gentle = all(piece.turn == 1 and piece.sharpest < most for piece in path.pieces)
 
     @staticmethod
     def place_quantity(place: float) -> Quantity:
@@ -266,7 +342,7 @@ class RouteChain(DragonOnPath["RoutePose"]):
         piece, t = handle
         if not (isinstance(piece, BallCoil) and piece.index == 0 and piece.inwards):
             return None
-        if not abs(piece.curvature_at(t)) * self.longest < 2:
+        if not abs(piece.curvature_at(t)) * self.longest < arb(GENTLE_MOST):
             return None
         inner = (piece.growth * t.lower()) ** 2 - arb(self.longest) ** 2 / 4
         return inner.sqrt() - self.reach if inner > 0 else None

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import reduce
+
 from flint import acb, arb
 
 from core.proof.pairs import TouchingLine, Unproven, above, below
-from core.proof.route import BallCoil, RouteChain
+from core.proof.route import REAR_COSINE_LEAST, BallCoil, Piece, RouteChain
 
 # Number of times that q of 9. is enclosed again from its own derivative: each time the excess is multiplied by the
 # angle of rotation in half a stretch.
@@ -40,38 +43,62 @@ class RouteStretch:
             pose.grow_to(k + 1)
         after, before = self.ends
         chord, front, rear, speed = after.sizes[k].chord, after.handles[k], before.handles[k + 1], self.speeds[k]
-        if front[0] is rear[0] and not isinstance(front[0], BallCoil):
+        gentle = self.chain.path.gentle(front, rear, chord)
+        if gentle and front[0] is rear[0] and not isinstance(front[0], BallCoil):
             curvature = front[0].curvature
             self.placed.append((acb(speed * (1 - (curvature * chord / 2) ** 2).sqrt()), speed * curvature))
             self.speeds.append(speed)
             return
-        low, high = self.chain.path.curvature(front, rear)
-        alpha, beta = self._from_ends(k, half_angle(low, high, chord), low.union(high))
+        if gentle:
+            low, high = self.chain.path.curvature(front, rear)
+            wide, bend = half_angle(low, high, chord), low.union(high)
+            alpha, beta = self._from_ends(k, (wide, -wide), (bend, bend))
+        else:
+            alpha, beta = self._from_ends(k, *self._over(k))
         (sine, cosine), (rear_sine, rear_cosine) = alpha.sin_cos(), beta.sin_cos()
-        if not (cosine > 0 and rear_cosine > 0):
+        if not (cosine > 0 and rear_cosine > (0 if gentle else arb(REAR_COSINE_LEAST))):
             raise Unproven("handle {handle} is not enclosed", handle=self.bench + k + 1)
         ratio = cosine / rear_cosine
         across = ratio * rear_sine
         self.placed.append((speed * acb(cosine, (sine + across) / 2), speed * (sine - across) / chord))
         self.speeds.append(speed * ratio)
 
-    def _from_ends(self, k: int, alpha: arb, curvature: arb) -> tuple[arb, arb]:
+    def _over(self, k: int) -> tuple[tuple[arb, arb], tuple[arb | None, arb | None]]:
+        """alpha and beta of bench k by 18., and the curvatures at its handles [1/m]; None where one passes a corner."""
+        path, (after, before), chord = self.chain.path, self.ends, self.ends[0].sizes[k].chord
+        passed = [path.between(after.handles[i], before.handles[i]) for i in (k, k + 1)]
+        front, rear = (reduce(acb.union, [piece.point(t) for piece, t in parts]) for parts in passed)
+        back = (front - rear).conjugate()
+        tangents = [[back * piece.tangent(t) for piece, t in parts] for parts in passed]
+        if not (
+            before.places[k + 1] >= after.places[k + 1]
+            and all(tangent.real > 0 for tangent in tangents[0] + tangents[1])
+            and path.all_near(front, path.between(after.handles[k], after.handles[k + 1]), chord)
+        ):
+            raise Unproven("handle {handle} is not shown to follow", handle=self.bench + k + 1)
+        alpha, beta = (reduce(arb.union, [tangent.arg() for tangent in these]) for these in tangents)
+        return (alpha, beta), (bend_of(passed[0]), bend_of(passed[1]))
+
+    def _from_ends(self, k: int, wides: tuple[arb, arb], bends: tuple[arb | None, arb | None]) -> tuple[arb, arb]:
         """alpha and beta of bench k, also enclosed from their values at both ends (8.)."""
         after, before = self.ends
         half_way = (before.places[k] - after.places[k]) / 2
-        cosine = alpha.cos()
-        if not cosine > 0:
+        alpha, beta = wides
+        cosine, rear_cosine = alpha.cos(), beta.cos()
+        if not (cosine > 0 and rear_cosine > 0):
             raise Unproven("handle {handle} is not enclosed", handle=self.bench + k + 1)
-        ratio = cosine / (-alpha).cos()
-        rotating = (alpha.sin() - ratio * (-alpha).sin()) / after.sizes[k].chord
+        ratio = cosine / rear_cosine
+        rotating = (alpha.sin() - ratio * beta.sin()) / after.sizes[k].chord
 
-        rates = curvature - rotating, ratio * curvature - rotating
-        ends = zip(before.angles(k), after.angles(k), (alpha, -alpha), rates, strict=True)
-        alpha, beta = (
-            (first.union(last) + arb(0, 1) * abs(rate).upper() * half_way).intersection(wide)
-            for first, last, wide, rate in ends
-        )
-        return alpha, beta
+        def nearer(first: arb, last: arb, wide: arb, factor: arb, bend: arb | None) -> arb:
+            if bend is None:
+                return wide
+            rate = abs(factor * bend - rotating).upper()
+            return (first.union(last) + arb(0, 1) * rate * half_way).intersection(wide)
+
+        ends = zip(before.angles(k), after.angles(k), wides, (arb(1), ratio), bends, strict=True)
+        front, rear = (nearer(*of_handle) for of_handle in ends)
+        return front, rear
 
     def _circle(self) -> arb | None:
         """Radius around the first piece's centre within which the first bench stays [m], if a tail may be beyond."""
@@ -157,12 +184,17 @@ class RouteStretch:
         return limit.clears(limit.rotation * along, (to_move, axis_move), ends, self.width, self.chain.margin)
 
 
+def bend_of(parts: Sequence[tuple[Piece, arb]]) -> arb | None:
+    """All curvatures of these parts of a path [1/m]; None if there is a corner between them."""
+    if any(piece.turn != 1 for piece, _ in parts[:-1]):
+        return None
+    return reduce(arb.union, [piece.curvature_at(t) for piece, t in parts])
+
+
 def half_angle(low: arb, high: arb, chord: arb) -> arb:
     """Lower and upper bound of alpha and -beta of 8., for a curvature between low and high [1/m]. chord: [m]"""
     gentlest = abs(low).min(abs(high)) if low > 0 or high < 0 else arb(0)
     sharpest = abs(low).max(abs(high))
-    if not sharpest * chord < 2:
-        raise Unproven("a bend is tighter than half a chord, for which there is no certificate yet")
     length = _arc(gentlest, chord).union(_arc(sharpest, chord))
     return low.union(high) * length / 2
 

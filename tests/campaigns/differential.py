@@ -29,6 +29,7 @@ from core.proof.certificate import digest
 from core.tolerance.tolerance import tolerance
 from tests.campaigns import hunting
 from tests.support.forgeries import places, through_json
+from tests.support.proof_routes import cornered, rounded
 
 VERIFY = Path(__file__).parents[2] / "examples" / "verify.py"
 # Parts of each stretch, where only one of the two proves a certificate.
@@ -93,6 +94,10 @@ MAKERS = {
         Dance(Dragon(3), Route([Line((0, 0), (10, 0)), Arc((10, 3), 3.0, -math.pi / 2, 2.0)], start=1.0)), start=10.0
     ),
     "coil outwards": lambda: prove_clear(Dance(Dragon(3), Route([Coil(1.5, 1.5, 2.2, (1, 2), 0.5)])), start=8.5),
+    "corner": lambda: prove_clear(Dance(Dragon(5), cornered([12.0, 12.0], [40.0]))),
+    "tight arc": lambda: prove_clear(Dance(Dragon(5), rounded(12.0, 1.0, 107.0, 12.0))),
+    "contact over corners": lambda: _contact(Dragon(18), cornered([32.0, 4.0, 4.0, 4.0, 30.0], [60.0] * 4), 0.2),
+    "two benches at a corner": lambda: prove_clear(Dance(Dragon(2), cornered([6.0, 6.0], [-70.0]))),
     "stray": lambda: _strayed(False),
     "stray with a pose": lambda: _strayed(True),
 }

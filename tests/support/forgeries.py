@@ -8,6 +8,8 @@ import pytest
 
 from core.errors import ProofRefused
 from core.proof import digest, verify
+from core.proof.paths import recorded_path
+from tests.support.proof_routes import rounded
 
 EDIT = re.compile(r"(?:(delete|repeat|reverse|shorten) )?([^ ]+)(?: (\+?)= (.+))?")
 
@@ -137,4 +139,38 @@ FORGERIES = [
     ("delete overlap", "malformed"),
     ('sweeps.0.stretches.7.1 = "30"', "malformed"),
     ("sweeps.0.stretches.7.1 = NaN", "malformed"),
+]
+
+
+def other_path(path):
+    """The change that puts another path, which core.proof.paths writes down, into a claim."""
+
+    def change(content):
+        content["claim"]["path"] = recorded_path(path)
+
+    return change
+
+
+# Of the certificates "corner" and "tight arc" of tests/campaigns/differential.py: (its name, change, why core.proof
+# refuses it). The last corners and arcs are paths that no bench can follow, or not without a jump.
+OVER_BENDS = [
+    *(
+        (name, change, reason)
+        for name in ("corner", "tight arc")
+        for change, reason in [
+            ("claim.path.start = 1.0", "when the path ends"),
+            ("claim.path.start = -1.0", "when the whole dragon is on the path"),
+            ("dragon.0.1 = 5.41", "when the whole dragon is on the path|must bend"),
+            ("delete sweeps.0.stretches.9", "do not join"),
+            ("delete sweeps.-1.stretches.-1", "short of"),
+            (one_for_all, "is not|not apart"),
+        ]
+    ),
+    ("corner", "claim.path.pieces.1.end = [11.0, 12.0]", "must turn by less than 90 degrees"),
+    ("corner", "claim.path.pieces.1.end = [0.1, 0.0]", "must turn by less than 90 degrees"),
+    ("corner", "claim.path.pieces.1.start = [12.0, 1e-6]", "must close"),
+    ("tight arc", "claim.path.pieces.1.radius = 0.9", "must close"),
+    ("tight arc", "claim.path.pieces.1.sweep = 1.5", "must close|must be smooth"),
+    ("tight arc", other_path(rounded(12.0, 1.0, 150.0, 12.0)), "must bend so that every bench can follow"),
+    ("tight arc", other_path(rounded(12.0, 0.6, 179.0, 12.0)), "must bend so that every bench can follow"),
 ]

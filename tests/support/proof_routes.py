@@ -2,7 +2,9 @@
 
 import math
 
-from core import Arc, Coil, Line, Route
+import numpy as np
+
+from core import Arc, Coil, Legs, Line, Route
 
 LOOP = Route(
     [
@@ -16,3 +18,19 @@ HAIRPIN = Route(
 )
 OUTWARDS = Route([Coil(0.9, 3.0, 9.0)])
 TURNED = Route([Coil(0.7, 9.0, 3.5, centre=(2.0, -1.0), rotation=0.4)], start=10.0)
+
+
+def cornered(lengths, degrees):
+    """Lines of these lengths [m], with a turn at each corner between them [degrees]."""
+    headings = np.radians(np.cumsum([0.0, *degrees]))
+    points = np.cumsum([0.0, *(np.array(lengths) * np.exp(1j * headings))])
+    return Legs([(point.real, point.imag) for point in points], range(len(lengths)), radius=0.0)
+
+
+def rounded(before, radius, degrees, after):
+    """An arc of a radius [m] and a turn [degrees] between two lines of these lengths [m]."""
+    turn = math.radians(degrees)
+    end = complex(before + radius * math.sin(turn), radius * (1.0 - math.cos(turn)))
+    far = end + after * complex(math.cos(turn), math.sin(turn))
+    arc = Arc((before, radius), radius, -0.5 * math.pi, turn)
+    return Route([Line((0.0, 0.0), (before, 0.0)), arc, Line((end.real, end.imag), (far.real, far.imag))])

@@ -4,13 +4,13 @@ from functools import cache
 
 import pytest
 
-from core import Dance, Dragon, Legs, Line, Route, Spiral, Turn, first_contact
+from core import Dance, Dragon, Spiral, Turn, first_contact
 from core.contact.clearance import least_clearance
 from core.errors import OutsideRun, ProofRefused
 from core.proof import prove_clear, prove_collision_time, prove_contact, verify
-from core.quantities import Quantity
+from tests.campaigns.differential import made
 from tests.support.depth import thorough
-from tests.support.forgeries import assert_refused, stretches, through_json
+from tests.support.forgeries import OVER_BENDS, assert_refused, stretches, through_json
 from tests.support.proof_routes import HAIRPIN, LOOP, OUTWARDS, TURNED
 from tests.support.reference_contacts import CONTACTS, proven_then_only
 from tests.support.refused import refused
@@ -112,12 +112,9 @@ def test_a_route_is_clear_to_its_end():
     assert_refused(certificate, "claim.stop += -2e-9", "not shown to end")
 
 
-def test_a_path_with_a_corner_is_refused_with_its_place():
-    with refused("path", at=Quantity(40.0, "m", 6)):
-        prove_clear(Dance(SMALL, Legs([(0.0, 0.0), (40.0, 0.0), (60.0, 20.0)], [0, 1], radius=0.0)))
-    straight = Route([Line((0.0, 0.0), (30.0, 0.0)), Line((30.0, 0.0), (60.0, 0.0))])
-    certificate = through_json(prove_clear(Dance(SMALL, straight)))
-    assert_refused(certificate, "claim.path.pieces.1.end = [54.0, 18.0]", "must be smooth at 30 m")
+@pytest.mark.parametrize("name, change, reason", OVER_BENDS)
+def test_a_forged_certificate_over_a_bend_is_refused(name, change, reason):
+    assert_refused(made(name), change, reason)
 
 
 @pytest.mark.parametrize("field, query", [("start", {"start": 5.0}), ("stop", {"stop": 1e4})])

@@ -7,7 +7,7 @@ from flint import arb, ctx
 from core import Dance, Dragon, Turn, trajectory
 from core.proof.paths import chain_on, recorded_path
 from core.proof.route import RouteChain
-from tests.support.proof_routes import HAIRPIN, LOOP, OUTWARDS, TURNED
+from tests.support.proof_routes import HAIRPIN, LOOP, OUTWARDS, TURNED, cornered, rounded
 
 # Chains in doubles, as trajectory() has them, are this near to the true ones [m].
 DOUBLES = 1e-11
@@ -20,7 +20,10 @@ ROUTES = {
     "inwards": TURNED,
     "turn": Turn(1.7),
     "free turn": FREE,
+    "tight arc": rounded(45.0, 1.0, 107.0, 20.0),
+    "corners": cornered([45.0, 3.1, 0.53, 20.0], [40.0, -30.0, 80.0]),
 }
+BENT = ("tight arc", "corners")
 
 
 @pytest.mark.parametrize("name", ROUTES)
