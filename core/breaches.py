@@ -30,7 +30,7 @@ from core.questions import question_about
 from core.shapes.engines import inside
 from core.shapes.reach import Reach, directions, gains, reach
 from core.shapes.rectangles import bench_poses, edge_frames, frames
-from core.values import Floats
+from core.values import Floats, Interval
 from core.venue import Venue
 
 # Travel of the head between two samples [m], and most samples; fewer where benches and edges make more than PAIRS.
@@ -187,7 +187,7 @@ def _on_wrong_sides(venue: Venue, poses: Floats) -> list[NDArray[np.bool_]]:
     return [~one if area is venue.square else one for area, one in zip(venue.areas, within, strict=True)]
 
 
-def _times(dance: Dance, span: tuple[float, float], edges: int) -> Floats:
+def _times(dance: Dance, span: Interval, edges: int) -> Floats:
     """Times of the samples (T,) [s], evenly spaced."""
     begin, until = span
     way = dance.clock.travel(until) - dance.clock.travel(begin)
@@ -287,7 +287,7 @@ def _beside(boxes: Floats, edge: Floats) -> Floats:
     return distance
 
 
-def _united(spans: Floats) -> Iterator[tuple[float, float]]:
+def _united(spans: Floats) -> Iterator[Interval]:
     """The union of intervals (N, 2) of s; those less than STEP apart are one."""
     start, end = None, 0.0
     for low, high in spans[np.argsort(spans[:, 0])].tolist():

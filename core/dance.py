@@ -29,7 +29,7 @@ from core.paths.refusal import refuse_tight_bends
 from core.paths.route import Route
 from core.paths.spiral import Spiral, end_theta
 from core.quantities import Given, Quantity, Value, bound, fill_template, quantities
-from core.values import Floats
+from core.values import Floats, Interval
 
 # Length of the default table of whole seconds, as in the contest [s].
 DEFAULT_SPAN = 300
@@ -277,7 +277,7 @@ class Dance(Readable):
             raise self._before_the_start(_instant(time, k), float(time.flat[k]))
         return time
 
-    def span(self, start: float | None = None, stop: float | None = None) -> tuple[float, float]:
+    def span(self, start: float | None = None, stop: float | None = None) -> Interval:
         """start and stop [s], checked to lie in the run and in this order.
 
         None: `default_start` for start, the end of the run for stop

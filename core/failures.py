@@ -17,6 +17,7 @@ from core.language import phrase, say, sense
 from core.paths.path import HeadState
 from core.performance import Performance
 from core.quantities import format_bound, format_number
+from core.values import Interval, Pair
 
 # Widest bracket of a first excess over a speed limit [s]; of a wider one the message says "at the latest".
 EXCESS_KNOWN = 1e-6
@@ -66,7 +67,7 @@ class Failure(Readable):
     benches: tuple[int, ...]
     area: str | None
     message: str
-    time_bracket: tuple[float, float] | None = None
+    time_bracket: Interval | None = None
     head: HeadState | None = None
     peak_speed: float | None = None
     peak_time: float | None = None
@@ -101,7 +102,7 @@ class PerformanceFailure(Readable):
     dragons: tuple[int, ...]
     benches: tuple[int, ...]
     message: str
-    time_bracket: tuple[float, float] | None = None
+    time_bracket: Interval | None = None
     failure: Failure | None = None
 
     def _line(self) -> str:
@@ -299,7 +300,7 @@ def encounter_failures(met: FirstEncounter) -> list[PerformanceFailure]:
     return [PerformanceFailure(FailureKind.CONTACT, met.time, met.dragons, met.benches, message, bracket)]
 
 
-def _dragons_pair(met: FirstEncounter, dragons: tuple[int, int], benches: tuple[int, int]) -> str:
+def _dragons_pair(met: FirstEncounter, dragons: Pair, benches: Pair) -> str:
     """Two benches at the beginning of a sentence, with their households and dragons."""
     a, b = (met.performance.parts[k].dance.dragon.called(bench) for k, bench in zip(dragons, benches, strict=True))
     one, two = map(met.performance.name_of, dragons)

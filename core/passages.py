@@ -11,6 +11,7 @@ from core.checks import checked_number
 from core.display import Readable
 from core.errors import InvalidValue
 from core.quantities import Given, Parameter, Quantity
+from core.values import Point
 
 HEAD_SPEED_MIN = 1e-6  # [m/s]
 HEAD_SPEED_MAX = 1e4  # [m/s]
@@ -53,7 +54,7 @@ class Period(NamedTuple):
     last: float
     speed: float
     passage: int | None
-    origin: tuple[float, float]
+    origin: Point
 
     def time(self, travel: float) -> float:
         """Time at which the head has travelled this far, within the period [s]."""

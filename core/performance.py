@@ -22,7 +22,7 @@ from core.language import counted, say
 from core.names import checked_name
 from core.passages import TIME_MAX
 from core.quantities import Given, Parameter, Quantity, Value, bound, quantities
-from core.values import Floats
+from core.values import Floats, Interval
 from core.venue import Venue
 
 # Largest delay, forwards and back [s]: eleven days. Times of a performance keep 1e-10 s then.
@@ -83,7 +83,7 @@ class Part(Readable):
         """Time of its own dance at a time of the performance, at which it is at its place [s]."""
         return min(max(time - self.delay, self.dance.begin), self.dance.end.time)
 
-    def own_span(self, begin: float, until: float) -> tuple[float, float]:
+    def own_span(self, begin: float, until: float) -> Interval:
         """The stretch of its own dance between two times of the performance [s]; of a dragon that stands, STANDING at
         its place."""
         least, most = self.dance.begin, self.dance.end.time
@@ -212,7 +212,7 @@ class Performance(Readable):
         """The largest stray of a hole of any dragon [m]. raises: InvalidValue"""
         return max(checked_stray(stray, part.dance.dragon) for part in self.parts)
 
-    def span(self, start: float | None = None, stop: float | None = None) -> tuple[float, float]:
+    def span(self, start: float | None = None, stop: float | None = None) -> Interval:
         """start and stop [s], checked to lie between begin and end and in this order.
 
         None: `begin` for start, `end` for stop

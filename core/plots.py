@@ -16,7 +16,7 @@ from core.extras import wanted
 from core.language import Phrases, say
 from core.paths.route import Route
 from core.paths.spiral import Spiral
-from core.values import Floats
+from core.values import Floats, Point
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -83,7 +83,7 @@ def draw_speeds(axes: Axes, handles: Floats, speed: Floats) -> None:
     bar.ax.ticklabel_format(useOffset=False)
 
 
-def mark_head(axes: Axes, head: Floats, tangent: Floats, centre: tuple[float, float]) -> None:
+def mark_head(axes: Axes, head: Floats, tangent: Floats, centre: Point) -> None:
     """Draw a ring around the head, an arrow in its direction of travel, and its label on the side of the centre."""
     ahead, out = head + HEAD_ARROW * tangent, head - np.array(centre)
     inwards = head - HEAD_LABEL * out / max(float(np.hypot(*out)), HEAD_LABEL)
@@ -122,7 +122,7 @@ def feature_words(feature: BenchFeature) -> str:
 
 def draw_enlarged(
     axes: Axes, outlines: Floats, benches: Sequence[int], point: Sequence[float], half: float,
-    corner: BenchFeature | None, edge: BenchFeature | None, centre: tuple[float, float],
+    corner: BenchFeature | None, edge: BenchFeature | None, centre: Point,
 ) -> None:  # fmt: skip
     """Draw the surroundings of a contact: both benches, corner, edge, point; two corners or two edges may meet too.
 
@@ -144,7 +144,7 @@ def draw_enlarged(
     axes.set(xlim=(x - half, x + half), ylim=(y - half, y + half))
 
 
-def _edge(outline: Floats, name: str, centre: tuple[float, float]) -> Floats:
+def _edge(outline: Floats, name: str, centre: Point) -> Floats:
     """The two ends of a named edge of one bench; outline: (4, 2) front-left, front-right, rear-right, rear-left."""
     sides = sorted((outline[[0, 3]], outline[[1, 2]]), key=lambda side: float(np.hypot(*(side.mean(axis=0) - centre))))
     return {"front": outline[[0, 1]], "rear": outline[[2, 3]], "inner": sides[0], "outer": sides[1]}[name]

@@ -43,6 +43,7 @@ from core.performance import DELAY_MAX, Part, Performance
 from core.quantities import Parameter, Quantity, bound, quantities
 from core.questions import question_about
 from core.shapes.reach import gains
+from core.values import Interval, Pair
 
 # Shortest interval of delays that is halved, and largest uncertainty of an end of a safe interval [s].
 LEAST, END_WIDTH = 0.002, 0.01
@@ -61,8 +62,8 @@ DELAY_WORK, SAMPLE_WORK, BENCH_WORK = 4e8, 400.0, 20.0
 # Part by which bounds are enlarged for the rounding of their own numbers [1].
 SPARE = 1e-9
 
-Intervals = tuple[tuple[float, float], ...]
-Stretches = list[tuple[float, float]]
+Intervals = tuple[Interval, ...]
+Stretches = list[Interval]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -180,7 +181,7 @@ class _Search:
         self,
         performance: Performance,
         k: int,
-        interval: tuple[float, float],
+        interval: Interval,
         margin: float,
         stray: float,
         stop: float | None,
@@ -204,7 +205,7 @@ class _Search:
         self.interval = interval
         self.look = self._stage(part, sum(interval) / 2.0, interval)
 
-    def _stage(self, part: Part, delay: float, delays: tuple[float, float]) -> Stage:
+    def _stage(self, part: Part, delay: float, delays: Interval) -> Stage:
         """A stage with the part at a delay, over the judged time of an interval of delays [s]."""
         others = [one for number, one in enumerate(self.performance.parts) if number != self.k]
         begin = min([part.dance.begin + delays[0], *(one.begin for one in others)])
@@ -270,7 +271,7 @@ class _Search:
             return Marched(Ended.REACHED, begin)
         return march.run(begin, stage.span[1]) if half is None else march.try_once(begin, stage.span[1], half)
 
-    def _met_around(self, delay: float, low: float, high: float) -> tuple[float, float]:
+    def _met_around(self, delay: float, low: float, high: float) -> Interval:
         """An interval of delays around one, within [low, high], at which two benches certainly meet [s]; if there is
         none, the delay itself twice."""
         part = self.performance.parts[self.k]
@@ -290,7 +291,7 @@ class _Search:
             ends.append(self._grown(delay, side, end, time, half, rows))
         return max(low, ends[0]), min(high, ends[1])
 
-    def _grown(self, delay: float, side: float, end: float, time: float, half: float, rows: tuple[int, int]) -> float:
+    def _grown(self, delay: float, side: float, end: float, time: float, half: float, rows: Pair) -> float:
         """The furthest delay up to which two benches are followed that certainly meet [s]."""
         reach, part = delay + side * half, AHEAD
         while side * (end - reach) > 0.0 and half > 0.25 * LEAST:
@@ -315,7 +316,7 @@ class _Search:
     # - the other one's path has ended at t: at t + d' - d the dragon is where it was, and the other one still stands.
     #   If the performance has ended by then, all stand at its end as they do at t. A stop may come before.
     # The same holds for shorter delays with beginnings and ends exchanged.
-    def _stands(self, delay: float, side: float, time: float, rows: tuple[int, int]) -> bool:
+    def _stands(self, delay: float, side: float, time: float, rows: Pair) -> bool:
         """True if two benches that meet at a time meet at all delays on this side, because one of them stands then."""
         owners = [int(self.look.owner[row]) for row in rows]
         if self.k not in owners:
@@ -326,7 +327,7 @@ class _Search:
             return own <= dance.begin or (self.stop is None and time >= other.end)
         return own >= dance.end.time or time <= other.begin
 
-    def _deepest(self, delay: float, times: np.ndarray, rows: tuple[int, int]) -> tuple[float, float]:
+    def _deepest(self, delay: float, times: np.ndarray, rows: Pair) -> tuple[float, float]:
         """The time at which two benches are deepest within the margin at a delay, and half the width of the interval of
         delays around it at which they are within it at that time [s]."""
         look, k = self.look, self.k

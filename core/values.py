@@ -1,4 +1,4 @@
-"""Types of arrays, points and listeners."""
+"""Types of arrays, points, intervals, pairs and listeners."""
 
 from __future__ import annotations
 
@@ -9,6 +9,10 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Point = tuple[float, float]
+# Beginning and end, or least and largest value.
+Interval = tuple[float, float]
+# Numbers of two benches, or of two dragons.
+Pair = tuple[int, int]
 # Called with the share of the work that is done, 0 to 1.
 Progress = Callable[[float], None]
 

@@ -13,6 +13,7 @@ from app.wire.clocks import time_of_day
 from app.wire.texts import text_to_cell
 from core.language import joined, say
 from core.people.crew import Crew, Spell
+from core.values import Point
 
 COLUMNS = (
     "person", "label", "bench", "name", "begin", "begin_clock", "end", "end_clock", "time", "way", "relieves", "x", "y",
@@ -26,7 +27,7 @@ class CrewWords:
 
     crew: Crew
     words: CardWords
-    places: tuple[tuple[float, float], ...]
+    places: tuple[Point, ...]
 
     @cached_property
     def labels(self) -> list[str]:

@@ -8,11 +8,10 @@ from enum import StrEnum
 import numpy as np
 
 import core
-from app.wire.answers import Point
 from app.wire.fields import Answer
 from core import Budget, Dance, Dragon, bench_outlines
 from core.language import say
-from core.values import Floats
+from core.values import Floats, Point
 
 # Ground around a first contact that its picture shows [m].
 AROUND = 2.6
@@ -65,7 +64,7 @@ class Picture(Answer):
     strokes: list[Stroke]
 
 
-def _stroke(role: Role, points: Floats | Sequence[tuple[float, float]]) -> Stroke:
+def _stroke(role: Role, points: Floats | Sequence[Point]) -> Stroke:
     return Stroke(
         role=role, points=[(x, y) for x, y in np.round(np.asarray(points, dtype=np.float64), DECIMALS).tolist()]
     )

@@ -11,6 +11,7 @@ import core
 from app.contest.solved import ContestRequest, Solved
 from core import BenchDragonError, Budget, Dance, TooMuchWork
 from core.language import say
+from core.values import Interval, Point
 
 # Number of values on each curve.
 VALUES = 25
@@ -30,8 +31,8 @@ class Panel:
 
     varied: str
     answer: str
-    points: list[tuple[float, float]]
-    own: tuple[float, float]
+    points: list[Point]
+    own: Point
     smooth: bool
 
 
@@ -47,7 +48,7 @@ def panels(solved: Solved) -> list[Panel]:
     speed = say("maximum head speed [m/s]")
     width, length = say("width of the benches [m]"), say("length of a body bench [m]")
     diameter, ratio = say("turning diameter [m]"), say("ratio of the arcs")
-    wanted: list[tuple[str, str, str, tuple[float, float], Answer, float | None]] = [
+    wanted: list[tuple[str, str, str, Interval, Answer, float | None]] = [
         (width, pitch, "width", WIDTHS, _pitch, solved.pitch.pitch),
         (diameter, pitch, "turning_diameter", DIAMETERS, _pitch, solved.pitch.pitch),
         (length, pitch, "body_length", LENGTHS, _pitch, solved.pitch.pitch),
@@ -62,7 +63,7 @@ def panels(solved: Solved) -> list[Panel]:
     ]
 
 
-def _curve(solved: Solved, name: str, limits: tuple[float, float], answer: Answer) -> list[tuple[float, float]]:
+def _curve(solved: Solved, name: str, limits: Interval, answer: Answer) -> list[Point]:
     points = []
     for value in np.linspace(*limits, VALUES).tolist():
         try:

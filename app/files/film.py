@@ -37,7 +37,7 @@ from core import Budget, Dance, Dragon, Performance, Trajectory, Venue, bench_ou
 from core.language import say
 from core.plots import BLUE, VERMILION, draw_dance
 from core.questions import question_about
-from core.values import Floats
+from core.values import Floats, Pair
 
 DPI = 100
 # Size of the type, as a share of the height of the picture.
@@ -270,7 +270,7 @@ class FilmPicture:
         ]
         return DragonLayer((head, head_edge), (body, edge), words, drawn / widths[own], labels)
 
-    def touching(self) -> tuple[list[tuple[int, int]], str]:
+    def touching(self) -> tuple[list[Pair], str]:
         """Dragon and number of the two benches that touch at the last instant, and that they do in words."""
         if self.spec.touching is None:
             return [], ""

@@ -8,7 +8,7 @@ from importlib.util import find_spec
 import numpy as np
 
 from core.people.beats import Music
-from core.values import Floats
+from core.values import Floats, Pair
 
 MP4_TYPE, GIF_TYPE = "video/mp4", "image/gif"
 # Forms of a film and the endings of their files, the default first: without PyAV a film is a GIF.
@@ -32,13 +32,13 @@ class FilmSpec:
     rate: float = 30.0
     height: int = 1080
     start_clock: str | None = None
-    touching: tuple[int, int] | None = None
+    touching: Pair | None = None
     music: Music | None = None
     music_begin: float = 0.0
     music_of: str = ""
-    dragons: tuple[int, int] | None = None
+    dragons: Pair | None = None
     colours: tuple[str, ...] = ()
-    marked: tuple[tuple[int, int], ...] = ()
+    marked: tuple[Pair, ...] = ()
 
     @property
     def width(self) -> int:

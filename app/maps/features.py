@@ -285,7 +285,7 @@ def _form(rings: tuple[Ring, ...], radius: float | None) -> tuple[Shape, tuple[R
     return ("line", rings) if len(set(rings[0])) > 1 else ("point", (rings[0][:1],))
 
 
-def inner_point(rings: tuple[Ring, ...]) -> tuple[float, float]:
+def inner_point(rings: tuple[Ring, ...]) -> Point:
     """A point inside a polygon for its name: the middle of its widest part at half of its height."""
     heights = [y for _, y in rings[0]]
     # Slightly beside the middle, because a side may lie exactly on it.
@@ -296,7 +296,7 @@ def inner_point(rings: tuple[Ring, ...]) -> tuple[float, float]:
     return 0.5 * (left + right), level
 
 
-def holds(rings: tuple[Ring, ...], point: tuple[float, float]) -> bool:
+def holds(rings: tuple[Ring, ...], point: Point) -> bool:
     """True if a point is inside a polygon and outside its holes.
 
     >>> holds((((0, 0), (4, 0), (4, 4), (0, 0)),), (3, 1))

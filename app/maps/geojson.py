@@ -31,6 +31,7 @@ from app.wire.numbers import number_of
 from core import InvalidValue
 from core.language import Listed
 from core.quantities import Given
+from core.values import Point
 from core.venue import Ring
 
 # For each geometry: the shape of its parts, and the depth of its lists of points in its coordinates.
@@ -148,7 +149,7 @@ def _ring(field: str, value: object) -> Ring:
     return tuple(_point(f"{field}.{k}", point) for k, point in enumerate(_listed(field, value)))
 
 
-def _point(field: str, value: object) -> tuple[float, float]:
+def _point(field: str, value: object) -> Point:
     numbers = _listed(field, value)
     if len(numbers) < 2 or not all(map(_is_number, numbers[:2])):
         raise InvalidValue(field, "must be a position of two numbers", got=Given(value))

@@ -14,7 +14,7 @@ from app.files.typeset import POINT, Face
 from app.plan.paper import PAPERS, Box, Paper, PaperName, TextRoom, box_about
 from core import Budget, InvalidValue
 from core.quantities import quantities
-from core.values import Floats
+from core.values import Floats, Point
 
 # Space between a map and its frame, and width of the edge in which a line is broken that goes on beyond it [mm].
 PAD, BROKEN_EDGE = 3.0, 6.0
@@ -45,7 +45,7 @@ class Scale:
 
     paper: Paper
     ratio: float
-    middle: tuple[float, float]
+    middle: Point
     turned: float = 0.0
 
     def on_paper(self, points: Floats) -> Floats:

@@ -20,7 +20,7 @@ from core import Budget, Dance, Venue
 from core.language import phrase, say
 from core.plots import BLUE, VERMILION
 from core.shapes.engines import Polygons, merged, widest_place
-from core.values import Floats
+from core.values import Floats, Point
 
 EDGE, GREY = "#B8860B", "#888888"
 # Looks of the ground that benches sweep, of the zone to keep clear, of the head and the other benches, and of stone.
@@ -157,7 +157,7 @@ def _draw_paths(drawing: MapDrawing, grounds: Sequence[GroundMap], names: Sequen
             drawing.write(name, *places[0], NAME_TYPE, bold=True, colour=ground.colour, on_paper=True)
 
 
-def _beside(line: Floats, half: float) -> list[tuple[float, float]]:
+def _beside(line: Floats, half: float) -> list[Point]:
     """Places on both sides of a path for a word of that half width, at several shares of it [mm]."""
     places = []
     for k in (max(1, int(share * (len(line) - 1))) for share in NAME_PLACES):
@@ -250,7 +250,7 @@ def _leaving(ring: Floats, room: Box) -> Floats:
     return sides
 
 
-def _inside(ring: Floats, middle: Floats, beside: float) -> list[tuple[float, float]]:
+def _inside(ring: Floats, middle: Floats, beside: float) -> list[Point]:
     """Places for a word of that half width inside a closed ring: at the middle of each side.
 
     Sides as long as the word come first, and of them those nearest to the middle, which is not in a street.
@@ -260,7 +260,7 @@ def _inside(ring: Floats, middle: Floats, beside: float) -> list[tuple[float, fl
     inwards = np.sign(area) * np.stack([-along[:, 1], along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
     places = ring[:-1] + 0.5 * along + inwards * (beside * np.abs(inwards[:, :1]) + 2.5 * np.abs(inwards[:, 1:]))
     order = np.lexsort((np.hypot(*(places - middle).T), np.hypot(*along.T) < 2.0 * beside))
-    middles: list[tuple[float, float]] = [tuple(places[k].tolist()) for k in order]
+    middles: list[Point] = [tuple(places[k].tolist()) for k in order]
     return middles
 
 

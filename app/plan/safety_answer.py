@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 import core
-from app.wire.answers import MultiPolygon, Point, Polygon
+from app.wire.answers import MultiPolygon, Polygon
 from app.wire.fields import Answer, OneLine, Wire, measure
 from app.wire.messages import checked
 from app.wire.numbers import numbers_of
@@ -16,7 +16,7 @@ from app.wire.paths import Point as PointField
 from core import Area, InvalidValue, Judgement
 from core.quantities import Given
 from core.shapes.engines import lane_rings
-from core.values import Floats
+from core.values import Floats, Point
 
 
 class Assumption(Answer):

@@ -13,6 +13,7 @@ from app.plan.timing import TimeFormat
 from app.wire.readings import bench_words
 from core.language import Listed, counted, joined, phrase, say, sense
 from core.quantities import format_bound, format_number
+from core.values import Interval
 
 # Most times in a lane that a sheet names.
 STAYS_NAMED = 4
@@ -154,13 +155,13 @@ def _stays_words(lane: Lane, clock: TimeFormat) -> str:
     return joined([words, say("Then no part of its width is sure to be free.")])
 
 
-def together(times: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+def together(times: Sequence[Interval]) -> list[Interval]:
     """Intervals in order, those that overlap as one.
 
     >>> together([(4.0, 6.0), (0.0, 1.0), (5.0, 7.0)])
     [(0.0, 1.0), (4.0, 7.0)]
     """
-    whole = list[tuple[float, float]]()
+    whole = list[Interval]()
     for begin, end in sorted(times):
         if whole and begin <= whole[-1][1]:
             begin, last = whole.pop()

@@ -14,7 +14,7 @@ from app.questions import figures
 from app.questions.collision_time import CollisionTime, Contact
 from app.questions.encounter import Encounter
 from app.wire import evidence
-from app.wire.answers import SENTENCES, DragonPair, Pair, Point
+from app.wire.answers import SENTENCES, DragonPair
 from app.wire.clocks import clock_at_zero, time_of_day
 from app.wire.dances import PlacedDance, SpanFields, TimeRange, clock_of
 from app.wire.fields import Answer, CrossCheck, SpeedLimit, Wire, measure
@@ -35,6 +35,7 @@ from app.wire.refusals import refusing
 from core import Dance, FailureKind, Judgement, Performance, Venue
 from core.language import phrase, say
 from core.quantities import format_bound, format_number
+from core.values import Pair, Point
 
 if TYPE_CHECKING:
     from app.wire.degrees import Place

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import core
 from app.questions.encounter import NearPass
-from app.wire.answers import Columns, Pair
+from app.wire.answers import Columns
 from app.wire.dances import TimedDance, TimeRange
 from app.wire.fields import Answer, DanceQuery, Wire
 from app.wire.labels import Part, TextTable, label, separation, value_text
@@ -14,6 +14,7 @@ from app.wire.performances import SeveralDances
 from app.wire.question import Command, Question, Terms
 from core.language import say
 from core.quantities import format_number
+from core.values import Pair
 
 # Time that one bench at one instant takes, measured 2026-11-22 [s].
 SECONDS_PER_CELL = 3e-6

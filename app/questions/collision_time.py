@@ -6,7 +6,7 @@ from typing import Self
 
 import core
 from app.wire import evidence
-from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair
+from app.wire.answers import SENTENCES, TOTAL_STRAY
 from app.wire.dances import DanceFields, SpanFields
 from app.wire.fields import Answer, CrossCheck, DanceQuery, Margin, Strays, UniformDragon
 from app.wire.labels import with_strays
@@ -15,6 +15,7 @@ from app.wire.readings import contact_words
 from core import Outcome
 from core.language import say
 from core.quantities import format_number
+from core.values import Pair
 
 # Most benches of a dragon that are all judged; of a longer dragon only those near the contact are [1].
 JUDGED_MOST = 2_000

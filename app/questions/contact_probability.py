@@ -9,12 +9,12 @@ from pydantic import Field
 
 import core
 from app.questions.tolerance import CircleQuery, SpanOrCircle, span_of
-from app.wire.answers import Pair
 from app.wire.dances import DanceFields
 from app.wire.fields import Answer, Whole, Wire, check_limit, measure
 from app.wire.question import UNKNOWN_COST, Command, Question, Terms
 from core.language import phrase, say
 from core.tolerance.chance import CONFIDENCE, SEED_MAX
+from core.values import Interval, Pair
 
 # Quantiles of the times of first contact in the answer [1].
 QUANTILES = (0.05, 0.5, 0.95)
@@ -85,7 +85,7 @@ class ContactProbability(Answer):
     """
 
     probability: float
-    limits: tuple[float, float]
+    limits: Interval
     confidence: float
     contacts: int
     samples: int

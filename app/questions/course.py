@@ -7,7 +7,6 @@ from typing import Any
 from pydantic import Field
 
 import core
-from app.wire.answers import Point
 from app.wire.dances import PlacedDance, SpanFields
 from app.wire.fields import Answer, Margin, SpeedLimit, Strays, measure
 from app.wire.question import Question, Terms
@@ -16,6 +15,7 @@ from core.breaches import AreaGap as Gap
 from core.breaches import BreachKind, breaches_and_gaps
 from core.language import say
 from core.proposal.answer import told_apart
+from core.values import Point
 
 # A route of 1,000 points, measured 2026-11-22, and where its dance breaks limits, measured 2026-11-27 [s].
 SECONDS, BREACHES_SECONDS = 0.02, 0.08

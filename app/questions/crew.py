@@ -34,6 +34,7 @@ from core.people import crew as facts
 from core.people.crew import ON_BENCH_MAX, PEOPLE_MAX, PLACES_MAX, SHIFT_MAX, Relief, places_near
 from core.quantities import Given, Parameter, Quantity
 from core.questions import question_about
+from core.values import Point
 
 if TYPE_CHECKING:
     from app.cards.timeline import CrewSheets
@@ -257,7 +258,7 @@ def _name(bench: int, crew: CrewWords) -> str:
     return crew.words.names[bench] if crew.words.names else ""
 
 
-def _spell(one: facts.Spell, place: tuple[float, float], crew: CrewWords) -> CrewSpell:
+def _spell(one: facts.Spell, place: Point, crew: CrewWords) -> CrewSpell:
     own = {
         "name": _name(one.bench, crew), "begin_clock": crew.clock(one.begin), "end_clock": crew.clock(one.end),
         "relieves": None if one.relieved is None else crew.labels[one.relieved],

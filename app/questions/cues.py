@@ -29,6 +29,7 @@ from core.people.cards import Card, card_of
 from core.people.cues import FOLLOWED_MAX, REACH, REACH_MAX, bench_cues
 from core.quantities import Given, Parameter
 from core.questions import question_about
+from core.values import Interval, Point
 
 # Longest address whose code fits on a card [characters].
 ADDRESS_MOST = 600
@@ -167,7 +168,7 @@ def _refuse_many(count: int) -> None:
         raise TooLarge.in_words("last_bench", rule, got=count, most=FOLLOWED_MAX)
 
 
-def _chalk(request: CuesRequest, dance: Dance, span: tuple[float, float], terms: Terms) -> Chalk:
+def _chalk(request: CuesRequest, dance: Dance, span: Interval, terms: Terms) -> Chalk:
     """The chalk marks of a dance from start to stop [s]."""
     places = handle_places(dance, span, budget=terms.budget)
     return Chalk.of(dance, [places[0, -1], places[1, 0]], request.spacing, request.step_length)
@@ -180,7 +181,7 @@ def _words(request: CuesRequest, dance: Dance, place: Place, terms: Terms) -> Ca
     return CardWords(dance.dragon.names, clock, chalk, geographic, landmarks=_landmarks(request, place))
 
 
-def _landmarks(request: CuesRequest, place: Place) -> list[tuple[str, tuple[float, float]]]:
+def _landmarks(request: CuesRequest, place: Place) -> list[tuple[str, Point]]:
     """Name and place of what a person can walk towards."""
     return landmarks_of(place.venue, [(one.name, (one.x, one.y)) for one in request.gates])
 

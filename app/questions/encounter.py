@@ -7,7 +7,7 @@ from typing import Any, Self
 import core
 from app.questions.collision_time import Contact
 from app.questions.figures import FORMATS, PICTURES
-from app.wire.answers import SENTENCES, TOTAL_STRAY, DragonPair, EncounterCheck, OwnedFeature, Pair, Point
+from app.wire.answers import SENTENCES, TOTAL_STRAY, DragonPair, EncounterCheck, OwnedFeature
 from app.wire.fields import Answer
 from app.wire.labels import with_strays
 from app.wire.performances import FILE_OF_DANCES, PerformanceFields, PerformanceSpan
@@ -16,6 +16,7 @@ from app.wire.readings import met_words
 from core import Outcome
 from core.language import say
 from core.quantities import format_number
+from core.values import Pair, Point
 
 
 class EncounterRequest(Contact, PerformanceSpan, PerformanceFields, strict=True):

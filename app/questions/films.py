@@ -17,6 +17,7 @@ from app.wire.question import Command, ListOption, Output, Question, Terms
 from core import Dance, Dragon, EndReason, InvalidValue, Outcome, Performance, first_contact
 from core.language import Language, say
 from core.quantities import Given, Quantity, bound
+from core.values import Pair
 
 FORM = next(iter(ENDINGS))
 # Longest time of the dance in a film without a stop, unless benches touch earlier, and time left before a fold [s].
@@ -110,7 +111,7 @@ def _of_several(request: FilmRequest, terms: Terms, form: str) -> bytes:
     return film.film_of_several(performance, spec, form, title=request.title, **more)
 
 
-def _marked(words: Sequence[int | str] | None, dragons: dict[int, Dragon]) -> tuple[tuple[int, int], ...]:
+def _marked(words: Sequence[int | str] | None, dragons: dict[int, Dragon]) -> tuple[Pair, ...]:
     """Dragon and number of each bench that stands out. dragons: those chosen, by number. raises: InvalidValue"""
     named = [(f"marked.{k}", word) for k, word in enumerate(words or ())]
     return tuple(dict.fromkeys((k, bench_of(*one, dragon)) for k, dragon in dragons.items() for one in named))
@@ -129,7 +130,7 @@ def shared_music(dances: Sequence[PartBody]) -> dict[str, Any]:
 
 def _span_together(
     request: FilmFields, performance: Performance, terms: Terms
-) -> tuple[float, float, tuple[tuple[int, int], tuple[int, int]] | None]:
+) -> tuple[float, float, tuple[Pair, Pair] | None]:
     """First and last instant of the film [s], and the dragons and benches that touch at the last.
 
     Without a stop it is the first encounter, or the first contact of a dragon by itself, whichever is earlier.
@@ -170,7 +171,7 @@ def rate_and_height(request: FilmFields, form: str) -> tuple[int, int]:
     return request.rate or rate, request.height or height
 
 
-def span_of(request: FilmFields, dance: Dance, terms: Terms) -> tuple[float, float, tuple[int, int] | None]:
+def span_of(request: FilmFields, dance: Dance, terms: Terms) -> tuple[float, float, Pair | None]:
     """First and last instant of the film [s], and the benches that touch at the last.
 
     raises: InvalidValue; OutsideRun

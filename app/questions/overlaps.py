@@ -9,14 +9,14 @@ from pydantic import Field
 
 import core
 from app.questions.figures import InstantQuery
-from app.wire.answers import LEFT_OUT, Pair, Point
+from app.wire.answers import LEFT_OUT
 from app.wire.fields import Answer, Coordinate, Length, Margin, Width, Wire, check_limit, measure
 from app.wire.labels import Part, TextTable, label, separation, value_text, value_word
 from app.wire.question import Command, Question, Terms
 from core import Engine
 from core.language import Listed, phrase, say
 from core.quantities import format_number
-from core.values import Floats
+from core.values import Floats, Pair, Point
 
 
 class BenchPose(Wire, strict=True):

@@ -7,12 +7,13 @@ from pydantic import Field
 
 import core
 from app.questions.minimum_pitch import checked_pitch
-from app.wire.answers import Columns, Pair, Point
+from app.wire.answers import Columns
 from app.wire.dances import DragonFields
 from app.wire.fields import Answer, UniformDragon, Whole
 from app.wire.paths import Circle
 from app.wire.question import UNKNOWN_COST, Question, Terms
 from core.design.pitch_scan import pitches_near, scan_near_minimum
+from core.values import Pair, Point
 
 # Time of a first contact near the minimum pitch, measured 2026-11-22 [s].
 SECONDS_PER_SAMPLE = 1.5e-3

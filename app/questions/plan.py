@@ -28,6 +28,7 @@ from core.people.crew import places_near
 from core.quantities import Given, Quantity, format_number
 from core.questions import question_about
 from core.shapes.engines import widened
+from core.values import Interval
 
 if TYPE_CHECKING:
     from app.files.typeset import Face
@@ -176,7 +177,7 @@ def _of_several(request: PlanRequest, terms: Terms) -> bytes:
 
 
 def timing_of_marks(
-    request: GatedDance, dance: Dance, span: tuple[float, float], passes: list[tuple[str, float]], terms: Terms
+    request: GatedDance, dance: Dance, span: Interval, passes: list[tuple[str, float]], terms: Terms
 ) -> Timing:
     from app.plan.timing import timing_of
 
@@ -246,7 +247,7 @@ class _Common:
 def passes_of_gates(
     request: GatedDance,
     dances: Sequence[Dance],
-    spans: Sequence[tuple[float, float]],
+    spans: Sequence[Interval],
     budget: core.Budget,
     others: Sequence[PlanGate] = (),
 ) -> list[list[tuple[str, float]]]:

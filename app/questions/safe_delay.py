@@ -8,7 +8,7 @@ from typing import Annotated, Any, Self
 from pydantic import Field
 
 import core
-from app.wire.answers import TOTAL_STRAY, Point
+from app.wire.answers import TOTAL_STRAY
 from app.wire.fields import Answer, Margin, Strays, Wire, measure
 from app.wire.labels import Part, TextTable
 from app.wire.performances import FILE_OF_DANCES, Moment, NumberOrName, PerformanceFields, dragon_of
@@ -16,6 +16,7 @@ from app.wire.question import Command, Question, Terms
 from core.language import phrase, say
 from core.performance import DELAY_MAX
 from core.quantities import format_bound, format_number
+from core.values import Point
 
 Delay = Annotated[float, Field(ge=-DELAY_MAX, le=DELAY_MAX)]
 

@@ -64,6 +64,7 @@ from core.questions import question_about
 from core.shapes.engines import Polygons, area_of, free_width, holds_all, inside, merged, widened
 from core.shapes.reach import gains
 from core.shapes.rectangles import bench_poses
+from core.values import Pair
 
 if TYPE_CHECKING:
     from app.files.typeset import Face
@@ -407,7 +408,7 @@ class _Judged:
                 )  # fmt: skip
 
     def _of_benches(
-        self, dragons: tuple[int, int], near: Any, gap: float, delay: float = 0.0, at_least: float | None = None
+        self, dragons: Pair, near: Any, gap: float, delay: float = 0.0, at_least: float | None = None
     ) -> Approach:
         """An approach of two benches. near: has their numbers and the time of the dance [s]; delay: of that [s]"""
         parts, time, benches = self.performance.parts, near.time + delay, list(near.benches)

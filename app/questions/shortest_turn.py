@@ -7,7 +7,7 @@ from pydantic import Field
 import core
 from app.questions.turn import Turn
 from app.wire import evidence
-from app.wire.answers import SENTENCES, TOTAL_STRAY, Pair, Point
+from app.wire.answers import SENTENCES, TOTAL_STRAY
 from app.wire.dances import DragonFields
 from app.wire.fields import Margin, Strays, UniformDragon, measure
 from app.wire.paths import TurnCircle
@@ -15,6 +15,7 @@ from app.wire.question import Command, Question, Terms
 from app.wire.readings import limit_words, turn_words
 from core.language import phrase, say
 from core.quantities import format_bound, format_number
+from core.values import Pair, Point
 
 # Width of a bracket that the work did not suffice to make narrow [m]: others have 1 mm at most.
 UNDECIDED_LEAST = 2e-3

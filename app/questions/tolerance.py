@@ -9,7 +9,7 @@ from pydantic import Field
 import core
 from app.questions.encounter import EncounterCertificate
 from app.wire import evidence
-from app.wire.answers import SENTENCES, Point
+from app.wire.answers import SENTENCES
 from app.wire.dances import PlacedDance, SpanFields
 from app.wire.fields import Answer, DanceQuery, TurningDiameter, Wire, measure
 from app.wire.performances import SeveralFields
@@ -19,6 +19,7 @@ from core import InvalidValue
 from core.language import phrase, say
 from core.quantities import Quantity
 from core.tolerance.curve import time_on_circle
+from core.values import Point
 
 SizeError = Annotated[float, Field(ge=0, le=5)]
 

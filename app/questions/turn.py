@@ -7,11 +7,11 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.wire.answers import Point
 from app.wire.fields import Answer, Wire
 from app.wire.paths import TurnFields, TurnPath
 from app.wire.question import Command, Question, Terms
 from core.language import say
+from core.values import Point
 
 
 class TurnQuery(TurnFields):

@@ -22,7 +22,6 @@ from app.questions.registry import QUESTIONS as KNOWN
 from app.questions.tolerance import DanceTolerance
 from app.questions.trajectory import DanceTrajectory, TrajectoryRequest
 from app.settings import Settings
-from app.wire.answers import Pair, Point
 from app.wire.dances import DanceFields
 from app.wire.fields import Answer, DanceQuery
 from app.wire.messages import checked
@@ -32,7 +31,7 @@ from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
 from core.language import Listed
 from core.quantities import Given
-from core.values import Floats
+from core.values import Floats, Pair, Point
 
 # The service's default limits, so that a row does not depend on the machine that computes it.
 LIMITS = Settings.model_construct()

@@ -16,9 +16,8 @@ from pydantic import Field
 import core
 from app.wire.fields import Answer, measure
 from core import Engine
+from core.values import Pair, Point
 
-Pair = tuple[int, int]
-Point = tuple[float, float]
 LEFT_OUT = (
     "Engines that were not asked because they cannot judge this case: the angle sum sees only corners inside a "
     "bench, so it cannot judge a margin or, at the start, benches that cross without a corner inside the other"

@@ -15,6 +15,7 @@ from core.display import Readable
 from core.language import Listed, Phrases, counted, say
 from core.plots import feature_words
 from core.quantities import format_number
+from core.values import Pair
 
 # Labels of fields, where they are not the words of their names, or no answer of a question has them.
 LABELS: Phrases = {
@@ -224,7 +225,7 @@ def _polygon_text(value: answers.Polygon | answers.MultiPolygon) -> str:
     return say("{polygons}, {holes}, {points}", polygons=polygons, holes=holes, points=points)
 
 
-def _pair_text(pair: answers.Pair | answers.DragonPair) -> str:
+def _pair_text(pair: Pair | answers.DragonPair) -> str:
     if isinstance(pair, answers.DragonPair):
         both = zip(pair.benches, pair.dragons, strict=True)
         return str(Listed(say("{bench} of dragon {dragon}", bench=bench, dragon=dragon) for bench, dragon in both))

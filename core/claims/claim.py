@@ -12,7 +12,7 @@ from core.dragon import Dragon
 from core.passages import Passage
 from core.paths.path import PathSummary
 from core.quantities import format_bound, format_number
-from core.values import Point
+from core.values import Interval, Pair, Point
 
 # Most passages that a summary lists one by one [1], and most parts of a performance.
 PASSAGES_LISTED, PARTS_LISTED = 6, 6
@@ -64,8 +64,8 @@ class DragonSummary(Readable):
     """
 
     benches: int
-    lengths: tuple[float, float]
-    widths: tuple[float, float]
+    lengths: Interval
+    widths: Interval
     head_length: float | None = None
     body_length: float | None = None
     width: float | None = None
@@ -150,7 +150,7 @@ class ContactClaim(Readable):
     start: float
     clear_until: float | None = None
     end: EndReason | None = None
-    benches: tuple[int, int] | None = None
+    benches: Pair | None = None
     time: float | None = None
     between: BenchBetween | None = None
 
@@ -215,8 +215,8 @@ class EncounterClaim(Readable):
     start: float
     clear_until: float | None = None
     end: EndReason | None = None
-    dragons: tuple[int, int] | None = None
-    benches: tuple[int, int] | None = None
+    dragons: Pair | None = None
+    benches: Pair | None = None
     time: float | None = None
 
 

@@ -20,7 +20,7 @@ from core.motion.trajectory import trajectory
 from core.paths.path import HeadState
 from core.quantities import format_number
 from core.shapes.rectangles import bench_outlines
-from core.values import Floats, Point
+from core.values import Floats, Interval, Pair, Point
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -80,7 +80,7 @@ class Feature(Readable):
 
 
 def features(
-    met: Witnesses, benches: tuple[int, int], placed: Floats, centres: Sequence[Point]
+    met: Witnesses, benches: Pair, placed: Floats, centres: Sequence[Point]
 ) -> tuple[tuple[int, Feature] | None, tuple[int, Feature] | None, Point]:
     """The corner and the edge of two benches that meet, each with its side of the pair, 0 or 1; and where they do [m].
 
@@ -115,7 +115,7 @@ class Graze(Readable):
 
     time: float
     clearance: float
-    benches: tuple[int, int]
+    benches: Pair
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -186,13 +186,13 @@ class FirstContact(Readable):
     outcome: Outcome
     _: KW_ONLY
     time: float | None = None
-    time_bracket: tuple[float, float] | None = None
-    overlapping: tuple[int, int] | None = None
+    time_bracket: Interval | None = None
+    overlapping: Pair | None = None
     head: HeadState | None = None
-    benches: tuple[int, int] | None = None
+    benches: Pair | None = None
     corner: Feature | None = None
     edge: Feature | None = None
-    point: tuple[float, float] | None = None
+    point: Point | None = None
     end: RunEnd | None = None
     certificate: Evidence
     gap: float | None = None
@@ -284,7 +284,7 @@ def near_words(margin: float, stray: float) -> str:
     return say("may {near} with strays up to {stray}", near=near, stray=display(stray, "m")) if stray else near
 
 
-def undecided_words(bracket: tuple[float, float], pair: str | None, near: str) -> str:
+def undecided_words(bracket: Interval, pair: str | None, near: str) -> str:
     """From when on a search is undecided, and which pair is near at the end of its bracket [s]."""
     begin, end = (display(time, "s") for time in bracket)
     if not pair:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from core import plots
 from core.contact.answer import Graze
-from core.contact.gaps import Pair, grazes, moments_of
+from core.contact.gaps import grazes, moments_of
 from core.contact.search import NEAR_WORK_BUDGET, ContactSearch, SearchInput, before_fold
 from core.contact.stage_clearance import clearance_between, least_clearance_between
 from core.contact.stretch import GRAZE_WIDTH, Stretch, least_on
@@ -24,7 +24,7 @@ from core.motion.trajectory import instants
 from core.performance import Performance
 from core.questions import or_about, question_about
 from core.tables import Column, Table, data_set
-from core.values import Floats
+from core.values import Floats, Pair
 
 if TYPE_CHECKING:
     import xarray

@@ -24,9 +24,8 @@ from core.shapes.engines import JUDGES, Engine, able, engine_pairs, unions_meet
 from core.shapes.overlaps import Verdict
 from core.shapes.reach import SHORT, Reach, reach
 from core.shapes.rectangles import Pairs, bench_poses, corners, frames, frames_separation, meeting_pairs, upright_boxes
-from core.values import Floats
+from core.values import Floats, Pair
 
-Pair = tuple[int, int]
 Indices = NDArray[np.int64]
 
 # Head travel between first contact and the judged poses [m]: far above the rounding of positions (1e-13 m), far below
@@ -95,7 +94,7 @@ def agreement_words(agree: bool, engines: int, benches: int) -> str:
 
 
 # Both dragons and their benches, as in a FirstEncounter.
-Pairing = tuple[tuple[int, int], tuple[int, int]]
+Pairing = tuple[Pair, Pair]
 
 
 @dataclass(frozen=True, slots=True, repr=False)

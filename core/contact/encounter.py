@@ -23,7 +23,7 @@ from core.kernels.results import Marched
 from core.paths.path import HeadState
 from core.performance import Performance, PerformanceEnd
 from core.questions import question_about
-from core.values import Point
+from core.values import Pair, Point
 
 # A feature with its dragon.
 Owned = tuple[Feature | None, int | None]
@@ -173,7 +173,7 @@ def _head(stage: Stage, k: int, time: float) -> HeadState:
     return player.part.dance.path.head(player.travel(time))
 
 
-def _features(stage: Stage, time: float, rows: tuple[int, int]) -> tuple[tuple[Owned, Owned], Point, float]:
+def _features(stage: Stage, time: float, rows: Pair) -> tuple[tuple[Owned, Owned], Point, float]:
     """The corner and the edge that meet, each with its dragon; the place of the corner [m]; and the separation [m]."""
     stage.probe(time, rows)
     placed = stage.chains[PROBED]

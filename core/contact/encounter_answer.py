@@ -16,7 +16,7 @@ from core.motion.trajectory import trajectory
 from core.paths.path import HeadState
 from core.performance import Performance, PerformanceEnd
 from core.shapes.rectangles import bench_outlines
-from core.values import Floats, Point
+from core.values import Floats, Interval, Pair, Point
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -38,8 +38,8 @@ class NearPass(Readable):
 
     time: float
     clearance: float
-    dragons: tuple[int, int]
-    benches: tuple[int, int]
+    dragons: Pair
+    benches: Pair
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -101,15 +101,15 @@ class FirstEncounter(Readable):
     outcome: Outcome
     _: KW_ONLY
     time: float | None = None
-    time_bracket: tuple[float, float] | None = None
-    dragons: tuple[int, int] | None = None
-    benches: tuple[int, int] | None = None
+    time_bracket: Interval | None = None
+    dragons: Pair | None = None
+    benches: Pair | None = None
     corner: Feature | None = None
     edge: Feature | None = None
     feature_dragons: tuple[int | None, int | None] = (None, None)
     point: Point | None = None
     heads: tuple[HeadState, HeadState] | None = None
-    overlapping: tuple[tuple[int, int], tuple[int, int]] | None = None
+    overlapping: tuple[Pair, Pair] | None = None
     end: PerformanceEnd | None = None
     certificate: EncounterEvidence
     gap: float | None = None
@@ -141,7 +141,7 @@ class FirstEncounter(Readable):
         pairs = zip(self.dragons, self.benches, strict=True)
         return np.concatenate(outlines), [int(firsts[dragon]) + bench for dragon, bench in pairs]
 
-    def _pair(self, dragons: tuple[int, int], benches: tuple[int, int]) -> str:
+    def _pair(self, dragons: Pair, benches: Pair) -> str:
         one, two = (
             say("bench {bench} of {dragon}", bench=bench, dragon=self.performance.name_of(k))
             for k, bench in zip(dragons, benches, strict=True)

@@ -30,6 +30,7 @@ from core.kernels.results import Marched
 from core.paths.frame import WORLD
 from core.performance import Performance
 from core.questions import or_about, question_about
+from core.values import Interval, Pair
 
 
 @or_about(Performance, first_encounter)
@@ -97,7 +98,7 @@ def contact_within(
     return answer
 
 
-def _searched(dance: Dance, search: ContactSearch, span: tuple[float, float], stop: float | None) -> FirstContact:
+def _searched(dance: Dance, search: ContactSearch, span: Interval, stop: float | None) -> FirstContact:
     """The answer of a search. span: begin and end [s]; stop: the end that was wanted, None for that of the run"""
     march, certain = first_met(search, dance, span)
     if march.ended is Ended.STUCK:
@@ -109,7 +110,7 @@ def _searched(dance: Dance, search: ContactSearch, span: tuple[float, float], st
 
 
 def _undecided(
-    dance: Dance, search: ContactSearch, march: Marched, certain: Marched | None, span: tuple[float, float]
+    dance: Dance, search: ContactSearch, march: Marched, certain: Marched | None, span: Interval
 ) -> FirstContact:
     """The answer of a search that gave up. certain: overlap_beyond(); span: of the search [s]"""
     clock, (begin, until) = dance.clock, span
@@ -141,9 +142,7 @@ def _graze(march: Marched, clock: Clock, begin: float) -> Graze | None:
     return None if graze is None else Graze(max(clock.time(graze.moment), begin), graze.gap, graze.pair)
 
 
-def _result(
-    dance: Dance, search: ContactSearch, march: Marched, end: RunEnd, span: tuple[float, float]
-) -> FirstContact:
+def _result(dance: Dance, search: ContactSearch, march: Marched, end: RunEnd, span: Interval) -> FirstContact:
     clock, outcome = dance.clock, OUTCOMES[march.ended]
     at_start = outcome is Outcome.CONTACT_AT_START
     proven = end.time if march.ended is Ended.REACHED else max(clock.time(march.proven), span[0])
@@ -171,7 +170,7 @@ def _result(
 
 
 def _claim(
-    dance: Dance, search: ContactSearch, outcome: Outcome, march: Marched, end: RunEnd, span: tuple[float, float]
+    dance: Dance, search: ContactSearch, outcome: Outcome, march: Marched, end: RunEnd, span: Interval
 ) -> ContactClaim:
     """What a decided search claims. span: of the search, up to the time until which it is proven to be clear [s]"""
     begin, proven = span
@@ -192,7 +191,7 @@ def _between(search: ContactSearch) -> BenchBetween | None:
 
 
 def _touching_features(
-    search: ContactSearch, travel: float, pair: tuple[int, int]
+    search: ContactSearch, travel: float, pair: Pair
 ) -> tuple[Feature | None, Feature | None, tuple[float, float], float]:
     """The corner and the edge that meet, the corner's place in the world frame [m], and the separation [m]."""
     search.place_leaders(travel, pair[1] + 1)

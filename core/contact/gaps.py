@@ -15,6 +15,7 @@ import numpy as np
 from core.kernels import Ended
 from core.kernels.results import Dip, Marched
 from core.sampling import dips
+from core.values import Interval, Pair
 
 # Step of the samples of a clearance, as a part of the shortest chord [1], longer if that is too much work.
 PROFILE_STEP = 0.2
@@ -28,8 +29,6 @@ ROUNDS = 100
 SAMPLES = 20_000
 SAMPLED_SHARE = 0.1
 
-Pair = tuple[int, int]
-
 
 def sample_count(steps: float, work: float, work_each: float) -> int:
     """Number of samples over a span of so many steps, or fewer if the remaining work requires it [1]."""
@@ -41,7 +40,7 @@ class Gaps(Protocol):
     """Pairs between two moments. count: number of samples between them; spacing: of a dip's ends and its middle"""
 
     @property
-    def span(self) -> tuple[float, float]: ...
+    def span(self) -> Interval: ...
     @property
     def count(self) -> int: ...
     @property

@@ -62,6 +62,7 @@ from core.kernels.constants import (
 )
 from core.kernels.results import Marched
 from core.sampling import fall_to_zero
+from core.values import Pair
 
 # Allowed error of a chord [m], and most steps towards it, of which three are enough except near a fold.
 NEGLIGIBLE = Decimal("1e-34")
@@ -110,7 +111,7 @@ class ExactPair:
         LAST_BENCH
     """
 
-    def __init__(self, search: ContactSearch, pair: tuple[int, int]) -> None:
+    def __init__(self, search: ContactSearch, pair: Pair) -> None:
         self.search, self.pair = search, pair
         self.edge = pair[1] - search.room - 1 if len(search.edges) else -1  # -1: the second one is a bench
         self.last = pair[0] if self.edge >= 0 else pair[1]

@@ -22,7 +22,7 @@ from core.kernels.results import Marched
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shapes.reach import Reach, directions, reach, ring_bounds
-from core.values import Floats
+from core.values import Floats, Interval, Pair
 
 MARGIN_MAX = 1e4  # [m]
 # Work after which a search gives up as undecided [1], see core/kernels/constants.py: 2 to 8 s for a first contact, and
@@ -255,7 +255,7 @@ class ContactSearch:
                     result = result._replace(proven=max(proven, result.proven))
         return result
 
-    def others_clear(self, pair: tuple[int, int], start: float, stop: float) -> bool:
+    def others_clear(self, pair: Pair, start: float, stop: float) -> bool:
         """True if all pairs except one are proven clear between two travels [m]."""
         self.scene.left_out, self.scene.left_out_too = pair
         result = self.march(stop, kernels.NO_BRACKET, start=start)
@@ -270,7 +270,7 @@ class ContactSearch:
             return None
         return narrow if result.half > narrow >= 2.0 * self.travel_rounding(result.touching or 0.0) else None
 
-    def fold_stops(self, begin: float, until: float, end: RunEnd) -> list[tuple[float, float]]:
+    def fold_stops(self, begin: float, until: float, end: RunEnd) -> list[Interval]:
         """Travels before a fold, at `until`, at which a march may end, and their distances from it [m].
 
         The last one is so near to the fold that its distance does not matter.
@@ -286,7 +286,7 @@ class ContactSearch:
                 begin = early - way
         return [*stops, (last, 0.0)]
 
-    def surely_within(self, travel: float, pair: tuple[int, int]) -> bool:
+    def surely_within(self, travel: float, pair: Pair) -> bool:
         """True if two benches are certainly within the margin after a travel [m], in spite of rounding."""
         slack = self.travel_rounding(travel)
         place = self.place - travel + slack
@@ -296,7 +296,7 @@ class ContactSearch:
         """Fill `placed` with a number of leading benches after a travel [m], without pairs."""
         self._clearance(travel, leaders, 0)
 
-    def clearance(self, travel: float, leaders: int | None = None) -> tuple[float, tuple[int, int]]:
+    def clearance(self, travel: float, leaders: int | None = None) -> tuple[float, Pair]:
         """Clearance after a travel [m], and its pair; only among pairs led by the first `leaders` benches."""
         benches = self.room
         if leaders is None:
@@ -305,7 +305,7 @@ class ContactSearch:
             benches = min(benches, leaders + self._followed(travel, leaders))
         return self._clearance(travel, benches, leaders)
 
-    def _clearance(self, travel: float, benches: int, leaders: int) -> tuple[float, tuple[int, int]]:
+    def _clearance(self, travel: float, benches: int, leaders: int) -> tuple[float, Pair]:
         gap, a, b = kernels.clearance_at(self.scene, self.place - travel, benches, leaders, self.placed, self.motion)
         self.budget.look()
         return float(gap), (a, b)
@@ -324,12 +324,12 @@ class ContactSearch:
         self.clearance(travel)
         return self.placed[: self.room + 1, kernels.RATE].copy()
 
-    def gap_rate(self, travel: float, pair: tuple[int, int]) -> float:
+    def gap_rate(self, travel: float, pair: Pair) -> float:
         """Rate at which a pair parts after a travel, per metre of head travel [1]."""
         self.budget.look()
         return float(kernels.gap_rate_at(self.scene, self.place - travel, *pair, self.tried))
 
-    def bottom(self, low: float, high: float, pair: tuple[int, int], width: float) -> float:
+    def bottom(self, low: float, high: float, pair: Pair, width: float) -> float:
         """Travel in [low, high] at which a pair stops approaching [m]."""
         travel = float(kernels.bottom_between(self.scene, low, high, *pair, width, self.tried))
         self.budget.look()

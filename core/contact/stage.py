@@ -28,6 +28,7 @@ from core.paths.frame import Frame
 from core.performance import Part, Performance
 from core.sampling import bisect, crossing
 from core.shapes.reach import directions, reach
+from core.values import Interval, Pair
 
 # The instants of an ensemble at which its benches are laid out: both ends of a step, and another one.
 BEFORE, AFTER, PROBED = range(3)
@@ -54,7 +55,7 @@ class Player:
     head by less than half of slip at every instant, and the other half is for the places at both ends of a step.
     """
 
-    def __init__(self, part: Part, search: ContactSearch, first: int, span: tuple[float, float]) -> None:
+    def __init__(self, part: Part, search: ContactSearch, first: int, span: Interval) -> None:
         self.part, self.search, self.first, self.clock = part, search, first, part.dance.clock
         self.begin, self.end, self.benches = part.begin, part.end, part.dance.dragon.benches
         local = [time - part.delay for time in span]
@@ -107,7 +108,7 @@ class Stage:
     def __init__(
         self,
         performance: Performance,
-        span: tuple[float, float],
+        span: Interval,
         margin: float,
         *,
         stray: float = 0.0,
@@ -178,9 +179,9 @@ class Stage:
             kinds.lay(np.concatenate(hulls), of, directions())
         return kinds
 
-    def _rings(self) -> dict[tuple[int, int], float]:
+    def _rings(self) -> dict[Pair, float]:
         """Radii outside which the benches of two dragons on spirals of one growth, centre and sense keep apart [m]."""
-        clear: dict[tuple[int, int], float] = {}
+        clear: dict[Pair, float] = {}
         for i, j in combinations(sorted(self.turning), 2):
             one, two = self.players[i], self.players[j]
             if one.search.growth != two.search.growth or self.stray > 0.0:
@@ -244,45 +245,45 @@ class Stage:
         self.budget.look()
         return True
 
-    def pair(self, a: int, b: int) -> tuple[tuple[int, int], tuple[int, int]]:
+    def pair(self, a: int, b: int) -> tuple[Pair, Pair]:
         """Dragons and benches of two rows."""
         i, j = int(self.owner[a]), int(self.owner[b])
         return (i, j), (a - self.players[i].first, b - self.players[j].first)
 
-    def rows(self, dragons: tuple[int, int], benches: tuple[int, int]) -> tuple[int, int]:
+    def rows(self, dragons: Pair, benches: Pair) -> Pair:
         """Rows of a bench of each of two dragons."""
         (i, j), (a, b) = dragons, benches
         return self.players[i].first + a, self.players[j].first + b
 
-    def probe(self, time: float, rows: tuple[int, int]) -> None:
+    def probe(self, time: float, rows: Pair) -> None:
         """Lay out two benches at a time [s]."""
         for row in rows:
             k = int(self.owner[row])
             player = self.players[k]
             self.stand(k, PROBED, time, player.speed(time, time), row - player.first + 1)
 
-    def gap(self, time: float, rows: tuple[int, int]) -> float:
+    def gap(self, time: float, rows: Pair) -> float:
         """Separation of two rows at a time [m]."""
         self.probe(time, rows)
         return float(self.ensemble.separation(PROBED, *rows))
 
-    def gap_most(self, time: float, rows: tuple[int, int]) -> float:
+    def gap_most(self, time: float, rows: Pair) -> float:
         """Upper bound of that separation, in spite of rounding [m]."""
         self.probe(time, rows)
         return float(self.ensemble.separation(PROBED, *rows) + self.ensemble.rounding(PROBED, *rows))
 
-    def gap_rate(self, time: float, rows: tuple[int, int]) -> float:
+    def gap_rate(self, time: float, rows: Pair) -> float:
         """Rate at which two rows part at a time [m/s]."""
         self.probe(time, rows)
         return float(self.ensemble.rate(PROBED, *rows))
 
-    def nearest(self, known: tuple[int, int] = (0, 0)) -> tuple[float, tuple[int, int]]:
+    def nearest(self, known: Pair = (0, 0)) -> tuple[float, Pair]:
         """The least gap at the start of the step, and its two rows; known: a pair to begin with."""
         self.ensemble.nearest(BEFORE, *known)
         self.budget.look()
         return float(self.ensemble.gap), (self.ensemble.first, self.ensemble.second)
 
-    def look(self, time: float, known: tuple[int, int] = (0, 0)) -> Dip:
+    def look(self, time: float, known: Pair = (0, 0)) -> Dip:
         """The least gap at a time [s]; known: rows to begin with, which stay if no others are nearer.
 
         Where a bench folds at that time, its dragon stands as it does just before (Player.sliver).
@@ -296,7 +297,7 @@ class Stage:
 
     sample = look
 
-    def bottom(self, low: float, high: float, rows: tuple[int, int]) -> float:
+    def bottom(self, low: float, high: float, rows: Pair) -> float:
         """Time between two at which a pair stops approaching [s]."""
         return crossing(lambda time: -self.gap_rate(time, rows), low, high, DIP_WIDTH)
 

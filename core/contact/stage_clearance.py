@@ -26,7 +26,7 @@ from core.performance import Performance
 from core.quantities import Quantity, bound
 from core.questions import question_about
 from core.tables import Column, Table
-from core.values import Floats
+from core.values import Floats, Pair
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
@@ -95,8 +95,8 @@ class PerformanceLeastClearance(Readable):
     distance: float
     at_least: float | None
     time: float
-    dragons: tuple[int, int]
-    benches: tuple[int, int]
+    dragons: Pair
+    benches: Pair
 
 
 @question_about("performance", Performance, "the clearance over time was not found")

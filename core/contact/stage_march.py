@@ -32,6 +32,7 @@ from core.kernels import Ended
 from core.kernels.constants import CORNER_SPEED, FREE, NO_BOUND
 from core.kernels.results import Dip, Marched
 from core.sampling import crossing
+from core.values import Pair
 
 # Half widths of the bracket around an encounter [s]: the first one as a rule, the others where benches meet so slowly
 # that rounding hides the gap.
@@ -67,9 +68,9 @@ class EncounterMarch:
         self.halves = list(HALF_BRACKETS)
         self.half: float = HALF_BRACKETS[0]
         self.aim: float | None = None
-        self.rows: tuple[int, int] = (0, 0)
+        self.rows: Pair = (0, 0)
         self.touching: float | None = None
-        self._seen: list[tuple[float, float, tuple[int, int], float]] = []
+        self._seen: list[tuple[float, float, Pair, float]] = []
 
     graze: Dip | None
 
@@ -193,7 +194,7 @@ class EncounterMarch:
         self.length, self.aim = 0.5 * self.length, None
         return False
 
-    def _peek(self, rows: tuple[int, int], until: float) -> float | None:
+    def _peek(self, rows: Pair, until: float) -> float | None:
         """A time a little ahead at which a pair is within the margin; None if there is none before the end."""
         width = 2.0 * self.half
         while width <= PEEK:

@@ -6,12 +6,13 @@ from dataclasses import dataclass
 
 from core.contact.brackets import TOUCHES
 from core.contact.fold import approach_fold, least_to_fold
-from core.contact.gaps import PROFILE_STEP, Pair, least_over, moments_of, sample_count
+from core.contact.gaps import PROFILE_STEP, least_over, moments_of, sample_count
 from core.contact.near_graze import narrow_bracket
 from core.contact.search import ContactSearch
 from core.dance import Dance
 from core.kernels import EDGES_PER_WORK, NO_BRACKET, Ended
 from core.kernels.results import Dip, Marched
+from core.values import Interval, Pair
 
 # Width to which a dip is refined [m of head travel], in a profile [s].
 GRAZE_WIDTH = 1e-11
@@ -28,7 +29,7 @@ class Stretch:
     """
 
     search: ContactSearch
-    span: tuple[float, float]
+    span: Interval
     head_speed: float
     fold: float | None = None
     width: float = GRAZE_WIDTH
@@ -96,7 +97,7 @@ def least_on(stretch: Stretch) -> tuple[Dip, float | None]:
     return least_over(stretch, march, first_touch)
 
 
-def first_met(search: ContactSearch, dance: Dance, span: tuple[float, float]) -> tuple[Marched, Marched | None]:
+def first_met(search: ContactSearch, dance: Dance, span: Interval) -> tuple[Marched, Marched | None]:
     """The first contact of a search between two times [s], also before a fold, in the narrowest bracket; and what
     overlap_beyond() finds where the search gives up."""
     clock, end = dance.clock, dance.end

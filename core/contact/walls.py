@@ -11,7 +11,6 @@ import numpy as np
 from core import kernels
 from core.checks import checked_number, checked_type
 from core.contact.answer import Outcome
-from core.contact.gaps import Pair
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, ContactSearch, SearchInput, before_fold
 from core.contact.stretch import Stretch, first_met, least_on
 from core.dance import Dance
@@ -26,7 +25,7 @@ from core.questions import question_about
 from core.shapes.engines import inside
 from core.shapes.reach import gains
 from core.shapes.rectangles import bench_poses
-from core.values import Floats, Point
+from core.values import Floats, Interval, Pair, Point
 from core.venue import Area, Venue
 
 # Distance of the samples of a route that dismiss far areas, at first, most of them [1], and rounding of places [m].
@@ -85,7 +84,7 @@ class AreaClearance(Readable):
     name: str
     outcome: Outcome
     time: float | None
-    time_bracket: tuple[float, float] | None
+    time_bracket: Interval | None
     bench: int | None
     point: Point | None
     nearest: Nearest | None
@@ -234,7 +233,7 @@ def own_edges(area: Area, frame: Frame) -> Floats:
     return frame.back(area.edges.reshape(-1, 2, 2)).reshape(-1, 4)
 
 
-def _area_clearance(search: ContactSearch, name: str, dance: Dance, span: tuple[float, float]) -> AreaClearance:
+def _area_clearance(search: ContactSearch, name: str, dance: Dance, span: Interval) -> AreaClearance:
     """The first time within the margin of an area between two times [s]."""
     (begin, until), clock = span, dance.clock
     result, certain = first_met(search, dance, span)
@@ -255,7 +254,7 @@ def _area_clearance(search: ContactSearch, name: str, dance: Dance, span: tuple[
     return AreaClearance(name, outcome, time, bracket, bench, point, None, gap, overlapping)
 
 
-def _nearest(search: ContactSearch, dance: Dance, span: tuple[float, float]) -> Nearest:
+def _nearest(search: ContactSearch, dance: Dance, span: Interval) -> Nearest:
     """Smallest distance of a search between two times [s]."""
     (begin, until), clock = span, dance.clock
     fold = dance.end.theta if dance.nears_fold(until) else None

@@ -19,12 +19,13 @@ from core.language import say
 from core.paths.spiral import START_TURNS_MAX, Spiral, end_theta
 from core.quantities import Given, Quantity, quantities
 from core.questions import question_about
+from core.values import Interval, Pair
 
 # Largest number of dragons in one spiral, and of the benches of all together [1].
 DRAGONS_MAX = 100
 BENCHES_MAX = 50_000
 
-Intervals = tuple[tuple[float, float], ...]
+Intervals = tuple[Interval, ...]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -55,9 +56,9 @@ class MinimumPitch(Readable):
     """
 
     pitch: float
-    pitch_bracket: tuple[float, float]
+    pitch_bracket: Interval
     limited_by: LimitedBy
-    benches: tuple[int, int] | None
+    benches: Pair | None
     bench: int | None
     head_radius: float | None
     other_feasible_intervals: tuple[tuple[float, float], ...]
@@ -66,7 +67,7 @@ class MinimumPitch(Readable):
     proven_up_to: float | None
     scan_step: float | None
     evaluations: int
-    dragons: tuple[int, int] | None = None
+    dragons: Pair | None = None
 
     def _line(self) -> str:
         limit = say(self.limited_by.value)

@@ -19,6 +19,7 @@ from core.design.straight import Straight
 from core.kernels import Ended
 from core.kernels.results import Marched
 from core.paths.spiral import Spiral
+from core.values import Pair
 
 # Lower end of the first band of a descent, as a part of its top [1]: the top is seldom far above the border. With it
 # the default takes 14.7 ms and a circle of 4 m 5.9 ms, without it 17.7 and 9.0 ms (measured 2026-11-21).
@@ -78,7 +79,7 @@ class Bands:
     def __init__(self, search: ContactSearch, radius: float, start_turns: float, margin: float) -> None:
         self.search, self.radius, self.start_turns, self.margin = search, radius, start_turns, margin
         self.work, self.marches = 0.0, 0
-        self.graze: tuple[tuple[int, int], float] | None = None
+        self.graze: tuple[Pair, float] | None = None
         self.straight = Straight(search.dragon) if search.copies == 1 else Spread(search.dragon, search.copies)
         # outside the circle the path curves so little that no handle moves backwards and no bench folds
         most = 0.5 * kernels.SPIRAL_CURVATURE_MOST * float(search.rings.all_chord) / radius
@@ -222,7 +223,7 @@ class Bands:
         self.graze = pair, radius
         return end + BORDER_WIDTH
 
-    def dip(self, pitch: float, radius: float, pair: tuple[int, int]) -> tuple[float, float]:
+    def dip(self, pitch: float, radius: float, pair: Pair) -> tuple[float, float]:
         """Least separation of a pair in its dip around a head radius, outside the circle, and the radius there [m]."""
         search = self.search
         search.use(Spiral(pitch, self.start_turns), self.margin)

@@ -18,6 +18,7 @@ from core.kernels import Ended, Halted
 from core.paths.spiral import Spiral
 from core.quantities import quantities
 from core.sampling import bisect
+from core.values import Interval, Pair
 
 # Distance below the proven bands at which an infeasible pitch is tried: the largest error of the answer [m of pitch].
 PASSED_OVER = 1e-9
@@ -166,7 +167,7 @@ class PitchSearch:
                 break
         return self.lowest, pitch
 
-    def bisect(self, infeasible: float, feasible: float) -> tuple[float, float]:
+    def bisect(self, infeasible: float, feasible: float) -> Interval:
         """The bracket narrowed to PITCH_WIDTH [m]; it stays wider by pitches that can be neither proven nor refuted."""
         refuted, left = infeasible, UNDECIDED_MAX
 
@@ -184,7 +185,7 @@ class PitchSearch:
         infeasible, _ = bisect(lambda pitch: is_feasible(pitch, True), refuted, below, width=PITCH_WIDTH)
         return infeasible, feasible
 
-    def islands(self, pitch: float) -> tuple[tuple[float, float], ...]:
+    def islands(self, pitch: float) -> tuple[Interval, ...]:
         """Feasible intervals between the lowest pitch and an infeasible one, to the resolution of the grid [m]."""
         grid = np.linspace(pitch, self.lowest, ISLAND_SAMPLES).tolist()
         intervals: list[tuple[float, float]] = []
@@ -206,7 +207,7 @@ class PitchSearch:
                 end = 0.0
         return ((self.lowest, end), *intervals) if end else tuple(intervals)
 
-    def limit(self, infeasible: float) -> tuple[LimitedBy, tuple[int, int] | None, float | None]:
+    def limit(self, infeasible: float) -> tuple[LimitedBy, Pair | None, float | None]:
         """Limit of the minimum pitch, the pair that meets just below it, and the radius of the head there [m]."""
         graze = self.bands.graze
         if self.scan_step is None and graze and graze[1] < infeasible * self.start_turns:
@@ -232,7 +233,7 @@ class PitchSearch:
         travel = result.touching - (CONTACT_WIDTH if result.ended is Ended.TOUCHED else 0.0)
         return self._met(travel, travel + BOTTOM_WITHIN, result.pair)
 
-    def _met(self, travel: float, end: float, pair: tuple[int, int]) -> tuple[LimitedBy, tuple[int, int], float]:
+    def _met(self, travel: float, end: float, pair: Pair) -> tuple[LimitedBy, Pair, float]:
         """Limit of a pair that meets after a travel: contact on the circle, or a graze at its dip before `end` [m]."""
         search, growth = self.search, self.search.growth
         end = min(end, stop := search.travel_at(self.radius / growth))

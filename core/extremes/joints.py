@@ -15,7 +15,7 @@ from core.motion.trajectory import trajectory
 from core.paths.following import longest_arc
 from core.questions import question_about
 from core.sampling import dips
-from core.values import Floats
+from core.values import Floats, Pair
 
 # Refinement of a peak to 1e-9 of a step: instants of one round around it, in steps; number of rounds; and number of
 # highest peaks to refine.
@@ -43,7 +43,7 @@ class SharpestBend(Readable):
 
     angle: float
     time: float
-    benches: tuple[int, int]
+    benches: Pair
 
 
 # The benches from m on are equal and follow the same way: benches (i, i + 1) have the angle that (m, m + 1) had when

@@ -17,6 +17,7 @@ from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Period
 from core.quantities import Quantity, bound
 from core.questions import question_about
 from core.sampling import bisect
+from core.values import Interval
 
 # Width of the proof: every handle stays below the highest rate found plus this [1]; the rate itself is good to 1e-12,
 # except in the last moments before a fold, where rates grow without bound and lose digits.
@@ -118,7 +119,7 @@ class FirstExcess(Readable):
     """
 
     time: float | None
-    time_bracket: tuple[float, float]
+    time_bracket: Interval
     handle: int | None
 
 

@@ -32,6 +32,7 @@ from core.questions import or_about, question_about
 from core.shapes.engines import inside
 from core.shapes.reach import gains
 from core.shapes.rectangles import bench_poses, edge_frames, frames
+from core.values import Interval
 from core.venue import Area
 
 # A bench nearer than this counts as in the area [m], and shortest step while one is [s].
@@ -171,9 +172,7 @@ class _Look:
 class _March:
     """Input: a dance and an area. Output: the stays. State: none but the budget."""
 
-    def __init__(
-        self, dance: Dance, area: Area, margin: float, stray: float, span: tuple[float, float], budget: Budget
-    ) -> None:
+    def __init__(self, dance: Dance, area: Area, margin: float, stray: float, span: Interval, budget: Budget) -> None:
         dragon = dance.dragon
         self.dance, self.area, self.span, self.budget = dance, area, span, budget
         self.sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)

@@ -16,7 +16,7 @@ from core.language import phrase, say
 from core.paths.route import Route
 from core.quantities import Quantity, quantities, say_value
 from core.sampling import bisect
-from core.values import Floats
+from core.values import Floats, Interval
 
 # Width of the bracket around the earliest travel of the head: absolute [m], and relative to it [1].
 ROOM_WIDTH = 1e-9
@@ -191,7 +191,7 @@ def _front_most(chords: Floats, bench: int, path: Route) -> float:
     return -float(chain[bench, LAG])
 
 
-def _tight_parts(path: Route, radius: float) -> list[tuple[float, float]]:
+def _tight_parts(path: Route, radius: float) -> list[Interval]:
     """Ends of the parts of a route that bend more tightly than a radius [m], BEGIN_WIDTH too long where a row of the
     table does so only in part: its |curvature| rises or falls there."""
     table, most, parts = path.table, 1.0 / radius, path.tighter(radius)

@@ -8,7 +8,7 @@ from typing import Literal, Protocol, Self
 from core import kernels
 from core.display import Readable
 from core.paths.frame import Frame
-from core.values import Floats
+from core.values import Floats, Interval
 
 Columns = tuple[Floats, Floats, Floats]
 
@@ -168,7 +168,7 @@ class Path(Protocol):
     def as_route(self, stop: float) -> Path:
         """The path in its own frame as a route, at least up to s = stop if it goes on so far [m]."""
 
-    def drawn_between(self, low: float, high: float) -> tuple[float, float]:
+    def drawn_between(self, low: float, high: float) -> Interval:
         """Ends s of a drawing that shows the places from low to high [m]."""
 
     def drawn_begin(self, points: Floats) -> float:

@@ -38,7 +38,7 @@ from core.paths.path import Columns, HeadState, PathSummary
 from core.paths.pieces import Arc, Clothoid, Coil, Line, Piece
 from core.quantities import Given, Parameter, Quantity, Value
 from core.questions import too_much
-from core.values import Floats
+from core.values import Floats, Interval
 
 # Largest drawn distance from the start of a route [m], and number of points.
 DRAWN = 2_000.0
@@ -328,7 +328,7 @@ class Route(Readable):
         """The route itself."""
         return self
 
-    def drawn_between(self, low: float, high: float) -> tuple[float, float]:
+    def drawn_between(self, low: float, high: float) -> Interval:
         """From low, if it is on the route, to the end of the route [m]."""
         return max(low, self.begin), self.end
 

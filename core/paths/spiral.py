@@ -23,7 +23,7 @@ from core.paths.pieces import Coil
 from core.paths.route import Route
 from core.quantities import Given
 from core.sampling import bisect
-from core.values import Floats, Point
+from core.values import Floats, Interval, Point
 
 START_TURNS_MAX = 1e5
 # Number of points in each drawn turn of a spiral.
@@ -262,7 +262,7 @@ class Spiral(Readable):
     def _drawn_way(self) -> Floats:
         return self.drawn(self.frame.points(np.zeros(2)))
 
-    def drawn_between(self, low: float, high: float) -> tuple[float, float]:
+    def drawn_between(self, low: float, high: float) -> Interval:
         """From low, which may be on the outward extension, to high or the centre [m]."""
         return low, min(high, self.end)
 

@@ -50,7 +50,7 @@ from core.performance import STANDING, Performance
 from core.quantities import Quantity, Value, bound
 from core.questions import or_about, question_about
 from core.shapes.rectangles import bench_poses
-from core.values import Floats, Point
+from core.values import Floats, Interval, Point
 
 # Largest gap at which a bench that comes abreast is met: by default, and at most [m].
 REACH, REACH_MAX = 8.0, 1_000.0
@@ -322,7 +322,7 @@ def _checked_benches(dance: Dance, benches: Sequence[int] | None) -> list[int]:
     return [checked_count(f"benches.{k}", bench, 0, count - 1) for k, bench in enumerate(followed)]
 
 
-def _span(dance: Dance, start: float | None, stop: float | None) -> tuple[float, float]:
+def _span(dance: Dance, start: float | None, stop: float | None) -> Interval:
     """Start and stop of the dance [s]. raises: InvalidValue, OutsideRun"""
     stop = None if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
     if dance.ends_by(dance.end.time if stop is None else stop):
@@ -388,7 +388,7 @@ def _turns(
     return turns
 
 
-def _performance_span(performance: Performance, start: float | None, stop: float | None) -> tuple[float, float]:
+def _performance_span(performance: Performance, start: float | None, stop: float | None) -> Interval:
     """Start and stop [s]. raises: InvalidValue, OutsideRun"""
     begin, until = performance.span(start, stop)
     folds = performance.end.dragon

@@ -37,7 +37,7 @@ from core.kernels import Budget
 from core.motion.trajectory import trajectory
 from core.questions import question_about
 from core.shapes.rectangles import bench_poses, frames, frames_separation
-from core.values import Floats
+from core.values import Floats, Pair
 
 # Travel of the head between two rows [m], and most rows; on a longer way rows are further apart.
 STEP, ROWS_MAX = 0.25, 20_000
@@ -232,7 +232,7 @@ def _approaches(
     own, other, row, away = (np.concatenate(column) for column in zip(*nearest, strict=True))
     half = 0.5 * np.hypot(*chain.sizes.T)
     kept = np.flatnonzero(away - half[own] - half[other] < in_row(own, other) - NEARER)
-    times = dict[tuple[int, int], list[float]]()
+    times = dict[Pair, list[float]]()
     for columns in abreast:
         for a, b, at in zip(*(column.tolist() for column in columns), strict=True):
             times.setdefault((a, b), []).append(at)

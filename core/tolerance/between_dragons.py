@@ -28,7 +28,7 @@ from core.performance import Performance
 from core.shapes.reach import gains
 from core.tolerance.exhibit import body, extended, first_overlap, separation_of
 from core.tolerance.safe import STRAY_MIN, SafeStray, safe_stray
-from core.values import Floats
+from core.values import Floats, Interval
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
@@ -71,7 +71,7 @@ class Between:
     """The ground that benches of two dragons may cover: a StrayGround of core/tolerance/safe.py."""
 
     performance: Performance
-    span: tuple[float, float]
+    span: Interval
     budget: Budget
     straying = 2.0
 

@@ -35,7 +35,7 @@ from core.shapes.reach import gains
 from core.tolerance.tolerance import tolerance
 from core.tolerance.union_bound import union_bound
 from core.tolerance.wobble import INSTANTS_PER_TIME, Wobble, check_sizes
-from core.values import Floats, Progress, unheard
+from core.values import Floats, Interval, Progress, unheard
 
 # Number of instants whose numbers come from one counter [1]. It is part of the definition of a sample: another value
 # changes the samples.
@@ -81,7 +81,7 @@ class ContactProbability(WithArrays, WithClaim):
     """
 
     probability: float
-    limits: tuple[float, float]
+    limits: Interval
     contacts: int
     samples: int
     time: Floats
@@ -293,7 +293,7 @@ class _Numbers:
         return self._generator
 
 
-def clopper_pearson(contacts: int, samples: int) -> tuple[float, float]:
+def clopper_pearson(contacts: int, samples: int) -> Interval:
     """Limits between which the probability of a contact lies with CONFIDENCE, from a number of contacts among samples.
 
     source: Clopper and Pearson, Biometrika 26 (1934), 404-413: at the lower limit this number of contacts or more has

@@ -31,7 +31,7 @@ from core.dragon import Dragon
 from core.kernels import NO_BRACKET, Budget, Ended
 from core.kernels.results import Dip, Marched
 from core.shapes.reach import Reach, gains, reach, simple_reach
-from core.values import Floats
+from core.values import Floats, Interval
 
 # Part by which the stray of the proof is below the least stray at which benches can meet [1]; the second value is for
 # dances where the first one takes too many steps.
@@ -59,7 +59,7 @@ class Field:
     dance: Dance
     edges: Floats | None
     area: str | None
-    span: tuple[float, float]
+    span: Interval
     fold: float | None
     work: float
     budget: Budget
@@ -159,7 +159,7 @@ class StrayGround(Protocol[G_co]):
     """
 
     @property
-    def span(self) -> tuple[float, float]: ...
+    def span(self) -> Interval: ...
     @property
     def straying(self) -> float: ...
     @property

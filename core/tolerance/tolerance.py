@@ -30,6 +30,7 @@ from core.questions import or_about, question_about
 from core.tolerance.between_dragons import Between, PerformanceExhibit
 from core.tolerance.exhibit import Body, Exhibit, exhibit
 from core.tolerance.safe import Field, SafeStray, held_stray
+from core.values import Interval
 from core.venue import Venue
 
 
@@ -271,7 +272,7 @@ def tolerance(
     return Tolerance(*known, bracket, by, time, benches, limit.area, pose, begin, until, proof)
 
 
-def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget: Budget) -> list[Field]:
+def _fields(dance: Dance, venue: Venue | None, span: Interval, budget: Budget) -> list[Field]:
     fields, first, last, fold = [], dance.clock.travel(span[0]), dance.clock.travel(span[1]), None
     if dance.nears_fold(span[1]):
         last, fold = before_fold(last), dance.end.theta
@@ -299,9 +300,7 @@ def _exhibit(field: Field, safe: SafeStray, time: float, frame: Frame) -> Exhibi
     return None if overlapping is None else replace(overlapping, handles=frame.points(overlapping.handles))
 
 
-def _claim(
-    dance: Dance, safe: SafeStray, independent: float, span: tuple[float, float], venue: Venue | None
-) -> StrayClaim:
+def _claim(dance: Dance, safe: SafeStray, independent: float, span: Interval, venue: Venue | None) -> StrayClaim:
     between = None
     if independent < safe.stray:
         between = BenchBetween.HELD

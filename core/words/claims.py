@@ -30,6 +30,7 @@ from core.language import Listed, counted, phrase, say, sense
 from core.passages import Passage
 from core.paths.path import PathSummary
 from core.quantities import format_bound, format_number
+from core.values import Interval
 
 PROOF = phrase(
     "Proven in steps, each by a bound on the second derivative of the gap along an axis fixed in a bench, and further "
@@ -162,7 +163,7 @@ def _stray(claim: StrayClaim) -> str:
     return apart + (say(BETWEEN[claim.between]) if claim.between else "")
 
 
-def _range(sizes: tuple[float, float]) -> str:
+def _range(sizes: Interval) -> str:
     low, high = (format_range([size], "m") for size in sizes)
     return high if low == high else say("{low} to {high}", low=low.removesuffix(" m"), high=high)
 
