@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from core.errors import InvalidValue
 from core.language import Listed
-from core.quantities import Given, Quantity, from_to, quantities
+from core.quantities import Given, Quantity, from_to, quantities, with_article
 
 if TYPE_CHECKING:  # NumPy takes as long to import as all of a process that runs jobs.
     from core.values import Point
@@ -62,11 +62,8 @@ def checked_count(name: str, value: object, low: int, high: int) -> int:
 def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> None:
     """Check the type of a value. raises: InvalidValue naming the parameter if the value is of none of the kinds"""
     if not isinstance(value, kinds):
-        some = (*(kinds if isinstance(kinds, tuple) else (kinds,)), type(value))
-        *words, own = (f"{'an' if one.__name__[0] in 'AEIOU' else 'a'} {one.__name__}" for one in some)
-        as_is = value is None or isinstance(value, (str, bytes, Real, list, tuple, dict))
-        got = f"the class {value.__name__}" if isinstance(value, type) else Given(value) if as_is else own
-        raise InvalidValue(name, "must be {kinds}", got=got, kinds=" or ".join(words))
+        words = " or ".join(map(with_article, kinds if isinstance(kinds, tuple) else (kinds,)))
+        raise InvalidValue(name, "must be {kinds}", got=Given(value), kinds=words)
 
 
 def checked_size(name: str, value: object) -> float:

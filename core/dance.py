@@ -189,9 +189,6 @@ class Dance(Readable):
         more = f", passages={self.passages!r}" if self.passages else ""
         return f"Dance(dragon={self.dragon!r}, path={self.path!r}, head_speed={self.head_speed!r}{more})"
 
-    def _drawn_way(self) -> Floats:
-        return self.path._drawn_way()
-
     @cached_property
     def clock(self) -> Clock:
         """Times and travels of the head."""

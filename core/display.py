@@ -4,26 +4,34 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import fields
 from enum import Enum
 from functools import cache
-from typing import Any, NamedTuple
+from itertools import chain
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from core.language import Phrases, say
+from core.language import Phrases, say, sense
+from core.quantities import say_unit
+
+R = TypeVar("R", bound="Readable")
 
 # Significant digits of a number in one line, and in a table, where the two ends of a bracket must differ.
 LINE_DIGITS, TABLE_DIGITS = 9, 15
 # Longest text within a line, and longest repr of an input before it shows one line instead [characters].
 TEXT_MOST, REPR_MOST = 60, 160
-# Most entries of a list in a table; a longer list shows its first entries.
-ENTRIES_MOST = 6
+# The head of a row, which languages without spaces would break between any two characters.
+ROW_HEAD = '<th scope="row" style="white-space: nowrap">'
+# Longest text within a row of a table of many [characters].
+CELL_MOST = 80
+# Most entries of a list in a table, and most rows of a table of many; a longer one shows its first.
+ENTRIES_MOST, ROWS_MOST = 6, 12
 # Width of the picture below a table [pixels], and most benches in it.
 PICTURE_WIDTH, PICTURE_MOST = 320, 1_000
-# Most points of a path in it.
-WAY_MOST = 800
+# Most points of a path in it, and the width of its line as a share of the picture [1].
+WAY_MOST, WAY_WIDTH = 800, 0.004
 TOUCHING = "#D55E00"  # colour of benches that touch
 # Rows of a table that are no fields, or those of a path.
 ROWS: Phrases = {
@@ -31,6 +39,15 @@ ROWS: Phrases = {
     "centre": "centre", "centres": "centres", "entry": "entry", "exit": "exit",
     "chords": "chords", "left out": "left out", "radii": "radii", "tangent point": "tangent point",
     "turning radius": "turning radius",
+    "straight": "straight piece",
+    "bench a": "bench a", "bench b": "bench b", "dragon a": "dragon a", "dragon b": "dragon b", "piece": "piece",
+    "velocity x": "velocity x", "velocity y": "velocity y",
+    # Codes.
+    "both": "both", "in": "in", "out": "out",
+    "contact probability": "contact probability", "folds": "folds", "held": "held",
+    "least radius": "least radius", "left": "left", "loose tail": "loose tail", "meeting": "meeting",
+    "no safe stray": "no safe stray", "outside": "outside", "pause": "pause", "safe stray": "safe stray",
+    "separating axis": "separating axis", "swept ground": "swept ground", "unused": "unused",
 }  # fmt: skip
 # What a line of a docstring says of a field.
 ENTRY = re.compile(r"(?P<name>\w+): (?P<words>.*?)(?: \[(?P<unit>[^\]]*)\])?")
@@ -50,11 +67,13 @@ class Readable:
     def _repr_html_(self) -> str:
         from html import escape
 
-        rows = (
-            f'<tr><th scope="row">{escape(say(name))}</th><td>{escape(text)}</td></tr>' for name, text in self._rows()
-        )
-        table = f"<table><caption>{escape(type(self).__name__)}</caption>{''.join(rows)}</table>"
-        return table + _drawn(*self._benches(), self._drawn_way(), escape(self._line()))
+        table = f"<table><caption>{escape(type(self).__name__)}</caption>{self._body()}</table>"
+        return table + _drawn(*self._benches(), self._drawn_lines(), escape(self._line()))
+
+    def _body(self) -> str:
+        """The rows of the table as HTML."""
+        rows = [(row_name(name), text) for name, text in self._rows() if text]
+        return "".join(f"<tr>{ROW_HEAD}{_html(name)}</th>{_td(text)}</tr>" for name, text in rows)
 
     def _line(self) -> str:
         """The short fields, each with its unit; a bracket only if its two ends differ in these digits."""
@@ -64,15 +83,19 @@ class Readable:
 
     def _rows(self) -> list[tuple[str, str]]:
         """Name and value of every row of the table."""
-        return [(name, display(value, unit, TABLE_DIGITS)) for name, value, unit in self._values()]
+        return [(name, _cell(value, unit)) for name, value, unit in self._values()]
 
     def _benches(self) -> tuple[np.ndarray[Any, Any] | None, Sequence[int]]:
         """Corners (n, 4, 2) [m] of the benches that a small picture below the table shows, and those that it fills."""
         return None, ()
 
-    def _drawn_way(self) -> np.ndarray[Any, Any] | None:
-        """Points (n, 2) [m] of the path that the picture shows."""
-        return None
+    def _drawn_lines(self) -> Sequence[np.ndarray[Any, Any]]:
+        """Points (n, 2) [m] of the lines that the picture shows: of its polygons, or of its turn, path or dance."""
+        rings = getattr(self, "polygons", None)
+        if rings:
+            return [ring for polygon in rings for ring in polygon]
+        values = [getattr(self, name, None) for name in ("turn", "path", "dance")]
+        return next((value._drawn_lines() for value in values if isinstance(value, Readable)), ())
 
     def _values(self) -> list[tuple[str, object, str]]:
         """Name, value and unit of every field that has a value."""
@@ -94,6 +117,24 @@ class WithArrays(Readable):
             return NotImplemented
         names = [field.name for field in fields(self) if field.compare]  # type: ignore[arg-type]
         return all(_equal(getattr(self, name), getattr(other, name)) for name in names)
+
+
+class Markup(str):
+    """A text that is HTML already."""
+
+    __slots__ = ()
+
+
+class Answers(list[R]):
+    """A list of results that shows as a table in a notebook, a row each."""
+
+    __slots__ = ()
+
+    def __getitem__(self, k: Any) -> Any:
+        return Answers(super().__getitem__(k)) if isinstance(k, slice) else super().__getitem__(k)
+
+    def _repr_html_(self) -> str:
+        return listing(self)
 
 
 class Meaning(NamedTuple):
@@ -144,8 +185,8 @@ def display(value: object, unit: str = "", digits: int = LINE_DIGITS) -> str:
         shape = " x ".join(map(str, value.shape))
         return say("array of {shape}, {span}", shape=shape, span=format_range(value, unit, digits))
     if isinstance(value, (tuple, list)):
-        return f"{_entries(value, digits) or say('none')} {unit if value else ''}".rstrip()
-    return f"{_entry(value, digits)} {unit}".rstrip()
+        return f"{_entries(value, digits) or say('none')} {say_unit(unit) if value else ''}".rstrip()
+    return f"{_entry(value, digits)} {say_unit(unit)}".rstrip()
 
 
 def format_range(values: Sequence[float] | np.ndarray, unit: str = "", digits: int = LINE_DIGITS) -> str:
@@ -157,23 +198,71 @@ def format_range(values: Sequence[float] | np.ndarray, unit: str = "", digits: i
     return f"{text} {unit}".rstrip()
 
 
-def _drawn(
-    outlines: np.ndarray[Any, Any] | None, filled: Sequence[int], way: np.ndarray[Any, Any] | None, label: str
-) -> str:
-    """A drawing of benches or a path seen from above as SVG, or nothing.
+def listing(values: Sequence[Readable]) -> Markup:
+    """A table of HTML with a row for each result, their units in its head: the fields that are short in all of them."""
+    shown = [{(name, unit): value for name, value, unit in one._values()} for one in values[:ROWS_MOST]]
+    texts = [{head: display(value) for head, value in row.items()} for row in shown]
+    heads = [head for head in dict.fromkeys(chain.from_iterable(shown)) if not _alike(head[0], shown[0].get(head))]
+    heads = [head for head in heads if all(len(row.get(head, "")) <= CELL_MOST for row in texts)]
+    rows = [[str(k), *(row.get(head, "") for head in heads)] for k, row in enumerate(texts)]
+    return Markup(f"<table>{table_rows([('', ''), *heads], rows, len(values))}</table>")
 
-    outlines: (n, 4, 2) [m]; way: points (n, 2) [m]; label: in words, escaped
+
+def table_rows(heads: Iterable[tuple[str, str]], rows: Iterable[Sequence[str]], count: int) -> str:
+    """Rows of HTML below a row of heads. heads: name and unit of each column; count: of all rows, shown or not"""
+    names = [row_name(name) + (f" [{say_unit(unit)}]" if unit else "") for name, unit in heads]
+    cells = [f'<th scope="col">{_html(name)}</th>' for name in names]
+    lines = ["".join(cells), *("".join(map(_td, row)) for row in rows)]
+    if (more := count - len(lines) + 1) > 0:
+        lines.append(f'<td colspan="{len(cells)}">{_html(say("and {count} more", count=more))}</td>')
+    return "".join(f"<tr>{line}</tr>" for line in lines)
+
+
+def row_name(name: str) -> str:
+    """The name of a row or column in the language that is spoken."""
+    return say(ROWS.get(name, name)) if name else ""
+
+
+def _html(text: str) -> str:
+    from html import escape
+
+    return text if isinstance(text, Markup) else escape(text)
+
+
+def _td(text: str) -> str:
+    return f"<td>{_html(text)}</td>"
+
+
+def _cell(value: object, unit: str) -> str:
+    """The text of a value in a table: several results are a table of their own, or a line each."""
+    if isinstance(value, (tuple, list)) and value and isinstance(value[0], Readable):
+        if type(value[0])._line is Readable._line:
+            return listing(value)
+        lines = [_html(_entry(one, LINE_DIGITS)) for one in value[:ROWS_MOST]]
+        more = len(value) - len(lines)
+        return Markup("<br>".join([*lines, *[say("and {count} more", count=more)] * (more > 0)]))
+    return display(value, unit, TABLE_DIGITS)
+
+
+def _drawn(
+    outlines: np.ndarray[Any, Any] | None, filled: Sequence[int], ways: Sequence[np.ndarray[Any, Any]], label: str
+) -> str:
+    """A drawing of benches or paths seen from above as SVG, or nothing.
+
+    outlines: (n, 4, 2) [m]; ways: points (n, 2) [m]; label: in words, escaped
     """
     if outlines is not None and 0 < len(outlines) <= PICTURE_MOST:
-        lines, end = outlines * (1.0, -1.0), "z"
-    elif way is not None:
-        lines, end = (way[:: 1 + len(way) // WAY_MOST] * (1.0, -1.0))[None], ""
+        lines, end = [*outlines * (1.0, -1.0)], "z"
+    elif ways:
+        lines, end = [way[:: 1 + len(way) // WAY_MOST] * (1.0, -1.0) for way in ways], ""
     else:
         return ""
-    low = lines.min(axis=(0, 1)) - 0.5
-    width, height = lines.max(axis=(0, 1)) + 0.5 - low
+    points = np.concatenate(lines)
+    low = points.min(axis=0) - 0.5
+    width, height = points.max(axis=0) + 0.5 - low
+    stroke = 0.05 if end else max(width, height) * WAY_WIDTH
     shapes = ["M" + " ".join(f"{x:.2f},{y:.2f}" for x, y in line) + end for line in lines]
-    benches = f'<path d="{"".join(shapes)}" fill="none" stroke="currentColor" stroke-width="0.05"/>'
+    benches = f'<path d="{"".join(shapes)}" fill="none" stroke="currentColor" stroke-width="{stroke:.2g}"/>'
     benches += f'<path d="{"".join(shapes[bench] for bench in filled)}" fill="{TOUCHING}"/>' if filled else ""
     return (
         f'<svg role="img" aria-label="{label}" width="{PICTURE_WIDTH}" style="max-height: {PICTURE_WIDTH}px" '
@@ -209,9 +298,14 @@ def _entry(value: object, digits: int) -> str:
     if isinstance(value, bool):
         return say("yes") if value else say("no")
     if isinstance(value, Enum):
-        return say(str(value.value))
+        text = str(getattr(value, "words", value.value)).replace("_", " ")
+        return sense("side", "right") if text == "right" else say(text)
+    if isinstance(value, dict):
+        return ", ".join(f"{_entry(name, digits)} {display(one, '', digits)}" for name, one in value.items())
+    if isinstance(value, np.ndarray):
+        return display(value, "", digits)
     if isinstance(value, float):
         return f"{value + 0.0:.{digits}g}"  # no -0
     if isinstance(value, tuple):
         return f"({_entries(value, digits)})"
-    return value._line() if isinstance(value, Readable) and type(value).__repr__ is Readable.__repr__ else str(value)
+    return value._line() if isinstance(value, Readable) and type(value).__str__ is object.__str__ else str(value)

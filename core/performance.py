@@ -15,7 +15,7 @@ import numpy as np
 
 from core.checks import checked_list, checked_number, checked_type
 from core.dance import Dance, EndReason, whole_seconds
-from core.display import Readable, format_range
+from core.display import ROWS_MOST, Readable, display, format_range
 from core.dragon import Stray, checked_stray
 from core.errors import InvalidValue, OutsideRun
 from core.language import counted, say
@@ -55,6 +55,10 @@ class Part(Readable):
     delay: float = 0.0
     name: str | None = None
     colour: str | None = None
+
+    def _line(self) -> str:
+        span = format_range((self.begin, self.end), "s")
+        return say("{dragon}, dances from {span}", dragon=self.dance.dragon._line(), span=span)
 
     def __post_init__(self) -> None:
         checked_type("dance", self.dance, Dance)
@@ -181,6 +185,15 @@ class Performance(Readable):
                 raise InvalidValue(
                     f"parts.{k}.delay", rule, got=got, part=Parameter(f"parts.{k}"), other=other, **times, **end_values
                 )
+
+    def _drawn_lines(self) -> list[Floats]:
+        return [way for part in self.parts for way in part._drawn_lines()]
+
+    def _rows(self) -> list[tuple[str, str]]:
+        parts = [(self.name_of(k), part._line()) for k, part in enumerate(self.parts[:ROWS_MOST])]
+        more = len(self.parts) - len(parts)
+        parts += [("dragons", say("and {count} more", count=more))] * (more > 0)
+        return [*parts, *Readable._rows(self)[1:], ("begin", display(self.begin, "s")), ("end", self.end._line())]
 
     def _line(self) -> str:
         names = ", ".join(self.name_of(k) for k in range(min(len(self.parts), 6)))

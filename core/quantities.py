@@ -4,14 +4,22 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from numbers import Real
 from typing import Any, NamedTuple, Self
 
 from core.language import Listed, Phrases, say, say_clauses
 
 # Units that are words, which each language has its own for.
 UNITS: Phrases = {"turns": "turns", "degrees": "degrees"}
+# Most characters of what a caller gave in a message; the rest is cut.
+GIVEN_MOST = 60
 # A word in a template.
 WORD = re.compile(r"\{(\w+)\}")
+
+
+def say_unit(unit: str) -> str:
+    """A unit in the language that is spoken: that of a turn is a word."""
+    return say(UNITS[unit]) if unit in UNITS else unit
 
 
 class Quantity(NamedTuple):
@@ -34,7 +42,7 @@ class Quantity(NamedTuple):
 
     def said(self) -> str:
         """The text in the language that is spoken."""
-        return str(self).replace(self.unit, say(UNITS[self.unit])) if self.unit in UNITS else str(self)
+        return str(self).replace(self.unit, say_unit(self.unit))
 
 
 class Parameter(NamedTuple):
@@ -53,7 +61,7 @@ class Parameter(NamedTuple):
 
 
 class Given(NamedTuple):
-    """What a caller gave, in a message. text: its form there; by default the first 60 characters of its repr()
+    """What a caller gave, in a message. text: its form there; by default a short repr(), or the kind of an object
 
     >>> from core import InvalidValue
     >>> str(InvalidValue("lengths", "must be a number", got=Given("3,41 m")))
@@ -64,12 +72,31 @@ class Given(NamedTuple):
     text: str = ""
 
     def __str__(self) -> str:
-        return self.text or f"{self.value!r:.60}"
+        if self.text:
+            return self.text
+        if isinstance(self.value, type):
+            return f"the class {self.value.__name__}"
+        if not _is_plain(self.value):
+            return with_article(type(self.value))
+        text = repr(self.value)
+        return text if len(text) <= GIVEN_MOST else f"{text[:GIVEN_MOST]}..."
 
     def __reduce__(self) -> tuple[Any, ...]:
         # What a caller gave may be anything, also what no other process can have.
         can_be_sent = self.value is None or isinstance(self.value, (str, int, float))
         return Given, (self.value, self.text) if can_be_sent else (None, str(self))
+
+
+def _is_plain(value: object) -> bool:
+    """True for None, texts, numbers, and lists of them, whose repr() says what was given."""
+    if isinstance(value, (list, tuple, dict)):
+        return all(map(_is_plain, value.values() if isinstance(value, dict) else value))
+    return value is None or isinstance(value, (str, bytes, Real))
+
+
+def with_article(kind: type) -> str:
+    """A class in a sentence: "a Dance"."""
+    return f"{'an' if kind.__name__[0] in 'AEIOU' else 'a'} {kind.__name__}"
 
 
 class Clause(str):

@@ -32,12 +32,21 @@ LESS = {
 }
 
 
+# The end of the sentence if a budget is stopped at no limit, see Budget.stop().
+STOPPED = "before it was stopped"
+
+
 def too_much(budget: Budget, field: str, rule: str, got: Value, **values: Value) -> TooMuchWork:
     """The error of a question that ended early.
 
-    rule: what must be smaller, then which answer is missing, with {then}: when the budget ended
+    rule: what must be smaller, then which answer is missing, with {then}: when the budget ended. Where somebody just
+        stopped it, nothing need be smaller
     """
-    error = TooMuchWork(field, rule, got=got, then=_then(budget), **values)
+    if budget.stopped and budget.then == STOPPED:
+        missing = rule.partition(": ")[2]
+        error = TooMuchWork.in_words(field, missing, reason=phrase("allow more time"), then=_then(budget), **values)
+    else:
+        error = TooMuchWork(field, rule, got=got, then=_then(budget), **values)
     error.stopped = budget.stopped
     return error
 

@@ -94,6 +94,9 @@ class Area(Readable):
         values = {"x": format_range(x, "m"), "y": format_range(y, "m")}
         return say("{name}, {count} points, x {x}, y {y}", name=repr(self.name), count=points, **values)
 
+    def _drawn_lines(self) -> list[Floats]:
+        return [np.array(ring) for ring in self.rings]
+
     @cached_property
     def edges(self) -> Floats:
         """x, y, x, y [m] of every edge with a positive length, (E, 4)."""
@@ -129,6 +132,9 @@ class Venue(Readable):
     def _line(self) -> str:
         names = ", ".join(repr(area.name) for area in self.obstacles) or say("none")
         return say("{square}; obstacles: {names}", square=self.square._line(), names=names)
+
+    def _drawn_lines(self) -> list[Floats]:
+        return [way for area in self.areas for way in area._drawn_lines()]
 
     @property
     def areas(self) -> tuple[Area, ...]:

@@ -23,7 +23,7 @@ from core.language import counted, say
 from core.motion.trajectory import instants
 from core.performance import Performance
 from core.questions import or_about, question_about
-from core.tables import Column, Table, data_set
+from core.tables import Column, Table
 from core.values import Floats, Pair
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ class ClearanceProfile(Table):
         axis = ("time",) * self.time.ndim
         variables = {"clearance": (axis, self.clearance), "benches": ((*axis, "pair"), self.benches)}
         coordinates = {"time": (axis, self.time), "pair": ["a", "b"]}
-        return data_set("ClearanceProfile.to_xarray()", variables, coordinates, self.units())
+        return self._data_set(variables, coordinates)
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Plot the clearance against time, with its local minima as dots.

@@ -9,6 +9,7 @@ from core.checks import checked_list, checked_type
 from core.contact.answer import FirstContact
 from core.contact.first_contact import first_contact
 from core.dance import Dance
+from core.display import Answers
 from core.dragon import Stray
 from core.kernels import Budget
 from core.threads import on_all_cores
@@ -27,7 +28,7 @@ def first_contacts(
 
     margin, stray, start, stop: of every one of them, see first_contact()
     budget: of all together
-    returns: one for each dance, in their order
+    returns: one for each dance, in their order; a notebook shows a table
     raises: as first_contact(), for the first of the dances for which it does
 
     >>> from core import Dragon, Spiral
@@ -41,4 +42,4 @@ def first_contacts(
     if budget is not None:
         checked_type("budget", budget, Budget)
     question = partial(first_contact, margin=margin, stray=stray, start=start, stop=stop, budget=budget)
-    return on_all_cores(question, every)
+    return Answers(on_all_cores(question, every))

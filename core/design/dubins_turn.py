@@ -27,14 +27,14 @@ from core.dance import Dance
 from core.design.turn_bounds import least_entry
 from core.design.turn_circle import CheckedCircle, checked_circle
 from core.design.turn_moves import least_bend
-from core.display import Readable, display
+from core.display import WAY_MOST, Readable, display
 from core.dragon import Dragon, chord_values
 from core.errors import InvalidValue
 from core.kernels import Budget, Halted
 from core.language import say
 from core.paths.following import bends_widely
 from core.paths.pieces import LENGTH_MIN, Arc, Coil, Line, Piece
-from core.paths.route import Route
+from core.paths.route import WAY_BEFORE, Route
 from core.paths.turn import OUTSIDE
 from core.quantities import Quantity, quantities
 from core.questions import question_about, too_much
@@ -68,8 +68,6 @@ class DubinsTurn(Readable):
     (4.257, ['Coil', 'Arc', 'Line', 'Arc', 'Coil'])
     """
 
-    _units = dict.fromkeys(("entry_radius", "exit_radius", "radii", "straight"), "m")
-
     path: Route
     length: float
     entry_radius: float
@@ -77,6 +75,9 @@ class DubinsTurn(Readable):
     radii: Point
     straight: float
     evaluations: int
+
+    def _drawn_lines(self) -> list[Floats]:
+        return [self.path.position(np.linspace(-WAY_BEFORE, self.length + WAY_BEFORE, WAY_MOST))]
 
     def _line(self) -> str:
         return say(

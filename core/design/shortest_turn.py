@@ -45,7 +45,7 @@ from core.design.turn_circle import CheckedCircle, checked_circle
 from core.design.turn_moves import apart_from_circle, box_of, coil_bend, least_bend
 from core.design.turn_overlap import OverlapSearch, most_benches
 from core.design.turn_places import locally_shortest, starts
-from core.display import Readable, display
+from core.display import TABLE_DIGITS, Readable, display
 from core.dragon import Dragon, Stray, checked_stray, chord_values
 from core.errors import InvalidValue
 from core.kernels import Budget, Halted
@@ -126,6 +126,9 @@ class ShortestTurn(Readable):
             entry=display(self.turn.entry_radius, "m"), exit=display(self.turn.exit_radius, "m"),
             limit=self.limited_by.words,
         )  # fmt: skip
+
+    def _rows(self) -> list[tuple[str, str]]:
+        return [("length", display(self.turn.length, "m", TABLE_DIGITS)), *Readable._rows(self)]
 
 
 @question_about("dragon", Dragon)

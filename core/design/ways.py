@@ -144,7 +144,7 @@ class Ways:
         if all((column[1:] == column[1:2]).all() for column in (dragon.lengths, dragon.widths, dragon.overhangs)):
             field = "dragon.head_length" if k == 0 and dragon.uniform_from else "dragon.body_length"
         rule = (
-            "must be larger, or benches fewer: their minimum pitch was not found {then}; the shortest of {benches} "
+            "must be larger, or benches fewer: the minimum pitch was not found {then}; the shortest of {benches} "
             "chords is {chord} long, the turning circle {diameter} across, and the last pitch tried was {pitch}"
         )
         sizes = quantities("m", 6, chord=dragon.chords[k], diameter=2.0 * self.radius, pitch=self.tried)

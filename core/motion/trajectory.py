@@ -18,7 +18,7 @@ from core.paths.frame import WORLD
 from core.performance import Part, Performance
 from core.questions import or_about, question_about
 from core.shapes.rectangles import bench_outlines
-from core.tables import Column, Table, data_set
+from core.tables import Column, Table
 from core.values import Floats
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ class Trajectory(Table):
         variables = {"position": ((*names, "axis"), self.position), "velocity": ((*names, "axis"), self.velocity)}
         coordinates = {"time": (instant, self.time), "handle": np.arange(self.speed.shape[-1]), "axis": list(AXES)}
         variables |= {"speed": (names, self.speed)}
-        return data_set("Trajectory.to_xarray()", variables, coordinates, self.units())
+        return self._data_set(variables, coordinates)
 
     def plot(self, ax: Axes | None = None, *, instant: int = -1) -> Axes:
         """Plot the dance at one instant, every handle coloured by its speed.

@@ -223,7 +223,8 @@ class Route(Readable):
         return say("{pieces} ({kinds}), s from {begin} to {end}", pieces=pieces, **values)
 
     def _rows(self) -> list[tuple[str, str]]:
-        rows = [(say("piece {k}", k=k), str(piece)) for k, piece in enumerate(self.pieces[:PIECES_LISTED])]
+        lines = [f"{type(piece).__name__}: {piece._line()}" for piece in self.pieces[:PIECES_LISTED]]
+        rows = [(say("piece {k}", k=k), line) for k, line in enumerate(lines)]
         more = len(self.pieces) - PIECES_LISTED
         rows += [(say("other pieces"), str(more))] if more > 0 else []
         return [
@@ -341,10 +342,10 @@ class Route(Readable):
         s = np.linspace(max(self.begin, -DRAWN), min(self.end, DRAWN), DRAWN_POINTS)
         return self.position(s)
 
-    def _drawn_way(self) -> Floats:
+    def _drawn_lines(self) -> list[Floats]:
         """The whole route; a turn, which alone has a length of its own, with a little of its coils."""
         stop = float(getattr(self, "length", math.inf))
-        return self.position(np.linspace(max(self.begin, -WAY_BEFORE), min(self.end, stop + WAY_BEFORE), WAY_MOST))
+        return [self.position(np.linspace(max(self.begin, -WAY_BEFORE), min(self.end, stop + WAY_BEFORE), WAY_MOST))]
 
     def tangent(self, s: Floats | float) -> Floats:
         """Unit tangents in the direction of travel. s: (...) [m]; returns (..., 2)."""

@@ -259,8 +259,8 @@ class Spiral(Readable):
         line: Floats = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
         return self.frame.points(line * (self.growth * theta[:, None]))
 
-    def _drawn_way(self) -> Floats:
-        return self.drawn(self.frame.points(np.zeros(2)))
+    def _drawn_lines(self) -> list[Floats]:
+        return [self.drawn(self.frame.points(np.zeros(2)))]
 
     def drawn_between(self, low: float, high: float) -> Interval:
         """From low, which may be on the outward extension, to high or the centre [m]."""

@@ -11,6 +11,7 @@ from core import kernels
 from core.checks import SIZE_MAX, SIZE_MIN, checked_number, checked_size
 from core.display import TABLE_DIGITS, display
 from core.errors import InvalidValue
+from core.language import say
 from core.paths.pieces import LENGTH_MIN, Arc, Coil
 from core.paths.route import Route
 from core.quantities import Quantity, quantities
@@ -108,6 +109,13 @@ class Turn(Route):
         deeper += f", exit_radius={self.exit_radius!r}" if self.exit_radius != self.entry_radius else ""
         arguments = f"{self.pitch!r}, {self.turning_radius!r}, {self.ratio!r}, start_turns={self.start_turns!r}{deeper}"
         return f"Turn({arguments})"
+
+    def _line(self) -> str:
+        lengths = {name: display(getattr(self, name), "m") for name in ("length", "entry_radius", "exit_radius")}
+        return say(
+            "length {length}, entry {entry_radius}, exit {exit_radius}, ratio {ratio}",
+            ratio=display(self.ratio), **lengths,
+        )  # fmt: skip
 
     def _rows(self) -> list[tuple[str, str]]:
         units = dict.fromkeys(("pitch", "turning_radius", "entry_radius", "exit_radius", "radii", "length"), "m")

@@ -105,7 +105,7 @@ def tolerance_curve(
         except TooMuchWork:
             if k == 0 or budget is None:
                 raise
-            rule = "must be fewer: the tolerance was found for only {found} of them {then}"
+            rule = "must be fewer: the tolerance was found for only {found} pitches {then}"
             raise too_much(budget, "pitches", rule, column.size, found=k) from None
         (progress or unheard)((k + 1) / column.size)
     return ToleranceCurve(column, np.array([one.stray for one in answers]), tuple(answers))

@@ -2,14 +2,24 @@
 
 import pytest
 
+from core import Dragon
 from core.errors import InvalidValue
 from core.quantities import Given, fill_template, format_bound, format_field, format_number
 
 pytestmark = pytest.mark.uncompiled
 
 
+def test_an_object_that_a_caller_gave_is_named_by_its_kind():
+    assert [str(Given(value)) for value in (Dragon(), [Dragon()] * 2, Dragon)] == [
+        "a Dragon",
+        "a list",
+        "the class Dragon",
+    ]
+
+
 def test_what_a_caller_gave_may_hold_braces():
     assert InvalidValue("pitch", "must be a number", got=Given({"low": 1}), low=2).message.endswith("got {'low': 1}")
+    assert str(Given("x" * 99)) == f"'{'x' * 59}..."
     assert fill_template("{a} and {b}", {"a": "{b}", "b": 1.0}) == "{b} and 1"
 
 

@@ -72,6 +72,8 @@ def test_a_question_whose_work_is_stopped_or_spent_ends_and_says_which(name):
             QUESTIONS[name](budget=budget)
         assert bool(caught.value.field)
         assert caught.value.stopped == (budget is stopped)
+        # What was stopped could have gone on: nothing that was asked for need be smaller.
+        assert budget is spent or "must be" not in str(caught.value)
 
 
 @pytest.mark.parametrize("name", [name for name in QUESTIONS if name != "Route"])

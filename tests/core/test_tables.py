@@ -29,6 +29,7 @@ def test_axes_of_a_trajectory_have_names_and_one_instant_no_axis_of_time():
     assert dataset.position.dims == ("time", "handle", "axis")
     assert dataset.velocity.sel(time=120.0, axis="y").values.tolist() == MOTION.velocity[2, :, 1].tolist()
     assert [dataset[name].attrs["units"] for name in ("time", "position", "speed")] == ["s", "m", "m/s"]
+    assert dataset.attrs["dance"] == repr(DANCE)
     alone = INSTANT.to_xarray()
     assert dict(alone.sizes) == {"handle": 6, "axis": 2}
     assert alone.time.item() == 60.0
@@ -54,6 +55,15 @@ def test_a_scan_is_a_table_with_the_piece_of_each_pitch():
         column = scan.to_xarray()[name]
         assert (column.dims, column.pitch.attrs["units"], column.attrs["units"]) == (("pitch",), "m", "m")
         assert column.sel(pitch=scan.pitch[1]) == getattr(scan, name)[1]
+
+
+@pytest.mark.parametrize("result", [MOTION, clearance_profile(DANCE, TIMES), SCAN, CURVE])
+def test_every_variable_and_axis_of_a_dataset_says_what_it_is_and_every_number_its_unit(result):
+    dataset = result.to_xarray()
+    assert {"title", "source"} <= {*dataset.attrs}
+    for name, variable in dataset.variables.items():
+        assert variable.attrs["long_name"], name
+        assert variable.attrs.get("units") or variable.dtype.kind not in "fi", name
 
 
 @pytest.mark.parametrize(
