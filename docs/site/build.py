@@ -21,17 +21,17 @@ DOCS = SITE.parent
 ROOT = DOCS.parent
 # The sections of the site, with the pages of docs/ on each; a page of docs/ on none of them is an error.
 SECTIONS = {
-    "everyone": ("Everyone", ["tasks", "gallery", "conventions", "command"]),
-    "students": ("Students", ["contest", "grade", "method", "paper"]),
+    "everyone": ("Everyone", ["child", "gallery", "conventions", "command"]),
+    "students": ("Students", ["student", "teacher", "contest", "grade", "method", "paper"]),
     "organisers": (
         "Organisers",
         [
-            *("paths-and-venues", "propose", "maps", "plan", "safety-sheet", "cues", "crew", "performances"),
-            *("tolerance", "envelope"),
+            *("organiser", "paths-and-venues", "propose", "maps", "plan", "safety-sheet", "cues", "crew"),
+            *("performances", "tolerance", "envelope"),
         ],
     ),
-    "scientists": ("Scientists", ["library", "proofs", "claims", "sweeps", "performance", "dragon-ccd"]),
-    "operators": ("Operators", ["http", "operations", "assistants"]),
+    "scientists": ("Scientists", ["scientist", "library", "proofs", "claims", "sweeps", "performance", "dragon-ccd"]),
+    "operators": ("Operators", ["engineer", "http", "operations", "assistants"]),
     "reference": ("Reference", [*(f"reference/{page}" for page in ROOMS), "http-reference"]),
     "project": ("Project", ["architecture", "contributing", "changelog", "security"]),
 }
