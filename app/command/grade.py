@@ -18,7 +18,7 @@ from app.command.options import Json
 from app.extras import require
 from app.files.disk import checked_output, ending_of, write_whole
 from app.files.workbooks import table_workbook
-from app.grade.class_table import ClassRow, alike, rubric_of, team_points
+from app.grade.class_table import ClassRow, alike, rubric_of, scheme, team_most, team_points
 from app.grade.judged import MISSING, WRONG
 from app.grade.reading import FILE_MAX
 from app.grade.report import (
@@ -28,6 +28,7 @@ from app.grade.report import (
     SheetAnswer,
     TypedAnswer,
     graded,
+    short_causes,
     typed,
     unreadable,
 )
@@ -104,7 +105,7 @@ def grade(
     if summary:
         as_file = _workbook if ending_of(summary) == ".xlsx" else _csv
         write_whole(summary, as_file(answer))
-    parts = [*_parts(answer), *(_teams(team_points(rows, points)) if points else ()), *alike(rows)]
+    parts = [*_parts(answer), *(_teams(rows, points) if points else ()), *alike(rows)]
     show.print_result(answer, json, iter(parts))
 
 
@@ -133,11 +134,12 @@ def _row_of(file: Path, team: str, graded: FileAnswer, data: bytes) -> ClassRow:
     )
 
 
-def _teams(points: list[tuple[str, float]]) -> Iterator[Part]:
-    table = TextTable(word("class_sheet"), word("class_team"), word("class_points"))
-    for team, value in points:
-        table.add(team, f"{value:g}")
+def _teams(rows: Sequence[ClassRow], rubric: dict[str, float]) -> Iterator[Part]:
+    table, most = TextTable(word("class_sheet"), word("class_team"), word("class_points")), team_most(rows, rubric)
+    for team, value in team_points(rows, rubric):
+        table.add(team, word("class_points_of", points=f"{value:g}", most=f"{most:g}"))
     yield table
+    yield scheme(rows, rubric)
 
 
 def _graded(name: str, data: bytes) -> FileAnswer:
@@ -169,16 +171,9 @@ def _heads() -> list[str]:
     return [word(f"column_{name}") for name in SUMMARY]
 
 
-def _causes(one: FileAnswer | TypedAnswer) -> list[str]:
-    """Short names of the known errors, those that are only possible last."""
-    certain = [word(f"name_{cause.error}") for cause in one.diagnosis]
-    possible = [word("may_be", error=word(f"name_{cause.error}")) for cause in one.possible]
-    return [*certain, *possible]
-
-
 def _row(file: FileAnswer) -> list[str | int]:
     """Cells of a file under the heads of a summary."""
-    errors = word("and_error").join(_causes(file))
+    errors = word("and_error").join(short_causes(file))
     verdict = word(file.verdict.value)
     return [file.file, file.workbook or "", verdict, *_counts(file), errors, _decimals(file)]
 
@@ -186,7 +181,7 @@ def _row(file: FileAnswer) -> list[str | int]:
 def _typed_row(one: TypedAnswer) -> list[str | int]:
     """Cells of a number under the heads of a summary; a limit that it breaks comes before the causes."""
     name = say("{name}: {text}", name=word(one.answer), text=f"{one.found:.12g} {one.unit}")
-    reasons = word("and_error").join([*([one.breaks] if one.breaks else []), *_causes(one)])
+    reasons = word("and_error").join([*([one.breaks] if one.breaks else []), *short_causes(one)])
     return [name, "", word(one.verdict.value), "", "", "", reasons, ""]
 
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from decimal import ROUND_HALF_UP, Decimal
 from typing import Any
+from unicodedata import east_asian_width
 from xml.sax.saxutils import escape
 
 import numpy as np
@@ -26,6 +27,9 @@ from core.values import Floats
 CREATED = datetime(2024, 9, 5)
 # Widths of the columns [characters].
 LABEL_WIDTH, NUMBER_WIDTH = 20, 12
+# Of a table: by how much a column is wider than its longest cell, for the button of its filter, and the widest column,
+# in which longer cells are wrapped [characters].
+SPARE, WIDEST = 4, 60
 # zlib's fastest level: a fifth of the time for 1.6 MB instead of 1.4 MB (measured 2026-11-22).
 QUICKEST = 1
 # A scaled number with a fraction this near to one half is rounded in decimal arithmetic, because the scaling may have
@@ -101,10 +105,17 @@ def table_workbook(title: str, columns: Sequence[str], rows: Sequence[Sequence[s
         page: Any = book.add_worksheet(title)
         page.freeze_panes(1, 0)
         page.autofilter(0, 0, len(rows), len(columns) - 1)
+        wrapped = book.add_format({"text_wrap": True, "valign": "top"})
         for k, row in enumerate([columns, *rows]):
             page.write_row(k, 0, row)
-        page.autofit()
+        for k, cells in enumerate(zip(columns, *rows, strict=True)):
+            page.set_column(k, k, min(max(map(_width_of, cells)) + SPARE, WIDEST), wrapped)
     return sink.getvalue()
+
+
+def _width_of(cell: str | float) -> int:
+    """Width of a cell [characters]; a Chinese character is as wide as two others."""
+    return sum(2 if east_asian_width(letter) in "FW" else 1 for letter in str(cell))
 
 
 def _without_numbers(sheets: Sequence[Worksheet], decimals: int) -> bytes:

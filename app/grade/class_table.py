@@ -21,14 +21,16 @@ from itertools import combinations, pairwise
 import numpy as np
 
 from app.grade.judged import Rating
+from app.grade.unusual import DECIMALS_LEAST
 from app.grade.words import word
 from core import InvalidValue
-from core.language import Listed, say
+from core.language import Listed, joined, say
 from core.quantities import Given
 
-# What a rubric may state: the points of each workbook, and the share of them for right numbers with fewer decimals [1].
-WORKBOOKS, ROUNDED = ("result1", "result2", "result4"), "rounded"
-DEFAULT = {"result1": 40.0, "result2": 20.0, "result4": 40.0, ROUNDED: 0.9}
+# What a rubric may state: the points of each question, those of a typed number among them, and the share of them for
+# right numbers with fewer decimals [1].
+TYPED, ROUNDED = ("question3", "question5"), "rounded"
+DEFAULT = {"result1": 40.0, "result2": 20.0, "question3": 10.0, "result4": 40.0, "question5": 10.0, ROUNDED: 0.9}
 # Most points of a workbook, and decimals of points.
 POINTS_MAX, DECIMALS = 1000.0, 1
 # Fewest wrong numbers that two files share, and least share of those compared, so that it is pointed out.
@@ -41,7 +43,7 @@ NAMED = 10
 
 @dataclass(frozen=True)
 class ClassRow:
-    """A graded file. team, file: names; workbook: result1, result2, result4 or None; digest: of its bytes
+    """A graded file. team, file: names; workbook: a name of DEFAULT or None; digest: of its bytes
 
     cells, right, rounded, missing: numbers of its cells that the contest requires, that are right, that are right to
         fewer decimals, and that are missing
@@ -102,9 +104,27 @@ def rubric_text(rubric: dict[str, float]) -> str:
 
 def points_of(row: ClassRow, rubric: dict[str, float]) -> float:
     """Points of a file: a cell that is right has an equal part of them, one that is rounded a share of that part."""
-    if row.workbook not in WORKBOOKS or not row.cells:
+    if not row.cells:
         return 0.0
-    return round(rubric[row.workbook] * (row.right + rubric[ROUNDED] * row.rounded) / row.cells, DECIMALS)
+    return round(most_of(row, rubric) * (row.right + rubric[ROUNDED] * row.rounded) / row.cells, DECIMALS)
+
+
+def most_of(row: ClassRow, rubric: dict[str, float]) -> float:
+    """Points of a file whose numbers are all right."""
+    return 0.0 if row.workbook is None or row.workbook == ROUNDED else rubric.get(row.workbook, 0.0)
+
+
+def team_most(rows: Sequence[ClassRow], rubric: dict[str, float]) -> float:
+    """Points of a team whose numbers are all right. A question without a workbook counts once a number is typed."""
+    named = {row.workbook for row in rows}
+    return sum(value for name, value in rubric.items() if name != ROUNDED and (name not in TYPED or name in named))
+
+
+def scheme(rows: Sequence[ClassRow], rubric: dict[str, float]) -> str:
+    """The rubric in words."""
+    points = str(Listed(f"{name} {value:g}" for name, value in rubric.items() if name != ROUNDED))
+    said = word("scheme", points=points, share=f"{rubric[ROUNDED]:g}")
+    return said if {row.workbook for row in rows}.issuperset(TYPED) else joined([said, word("scheme_typed")])
 
 
 def team_points(rows: Sequence[ClassRow], rubric: dict[str, float]) -> list[tuple[str, float]]:
@@ -152,7 +172,7 @@ def _sharing(rows: Sequence[ClassRow]) -> list[tuple[list[ClassRow], set[str]]]:
     from scipy.sparse import coo_array  # type: ignore[import-untyped]
     from scipy.sparse.csgraph import connected_components  # type: ignore[import-untyped]
 
-    numbers = [set(row.unusual) for row in rows]
+    numbers = [set(map(_to_least_decimals, row.unusual)) for row in rows]
     holders: dict[str, list[int]] = defaultdict(list)
     for k, own in enumerate(numbers):
         for number in own:
@@ -174,6 +194,14 @@ def _sharing(rows: Sequence[ClassRow]) -> list[tuple[list[ClassRow], set[str]]]:
         groups[label].append(k)
     shared = [(group, set.intersection(*(numbers[k] for k in group))) for group in groups.values() if len(group) > 1]
     return [([rows[k] for k in group], some) for group, some in shared if some]
+
+
+def _to_least_decimals(number: str) -> str:
+    """A number as unusual_of() gives it, with the fewest decimals that are compared: one file may be a rounded copy."""
+    cell, _, value = number.rpartition(": ")
+    with suppress(ValueError):
+        return f"{cell}: {float(value):.{DECIMALS_LEAST}f}"
+    return number
 
 
 def _teams(group: Sequence[ClassRow]) -> int:

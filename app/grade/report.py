@@ -159,6 +159,7 @@ class FileAnswer(Answer):
     headline: the verdict in words
     unusual: some wrong numbers that no common error gives, by which the files of a class are compared: x, y or v,
         instant, number of the handle, and value
+    finding: what was found, in a few words for a table; empty for a file that is right
     """
 
     file: str
@@ -171,6 +172,7 @@ class FileAnswer(Answer):
     notes: list[str]
     headline: str
     unusual: list[str] = Field(default=[])
+    finding: str = Field(default="")
 
 
 class TypedAnswer(Answer):
@@ -240,7 +242,7 @@ def unreadable(name: str, why: Note) -> FileAnswer:
     notes = [str(one) for one in (why, remark) if one]
     return FileAnswer(
         file=readable, workbook=None, verdict=Rating.UNREADABLE, diagnosis=[], sheets=[], rubric=[], notes=notes,
-        headline=word(Rating.UNREADABLE.value),
+        headline=word(Rating.UNREADABLE.value), finding=notes[0],
     )  # fmt: skip
 
 
@@ -267,16 +269,17 @@ def _graded(name: str, data: bytes, budget: Budget) -> FileAnswer:
     sheets += [_lacking(kind, cells_of(workbook, kind)) for kind in lacking]
     rubric = rubric_of(judgements, certain)
     notes += [one for grid in grids for one in grid.notes]
+    why: Note | None = None
     if (match := NAME_OF_WORKBOOK.search(PurePath(name).stem)) and match[1] != workbook.value[-1]:
         notes.append(note("named_otherwise", named=f"result{match[1]}", workbook=workbook.value))
     verdict = worst_of(sheet.verdict for sheet in sheets)
     if verdict is Rating.WRONG and not findings:
-        notes.append(why_unexplained(judgements))
+        notes.append(why := why_unexplained(judgements))
     if own:
         notes.append(own)
     elif workbook is Workbook.RESULT4 and verdict is Rating.WRONG and {one.error for one in findings} <= OTHER_TURN:
         notes.append(note("other_turn", length=f"{right_answer('turn_length'):.4f}"))
-    return FileAnswer(
+    answer = FileAnswer(
         file=name,
         workbook=workbook.value,
         verdict=verdict,
@@ -288,6 +291,26 @@ def _graded(name: str, data: bytes, budget: Budget) -> FileAnswer:
         headline=_headline(verdict, judgements),
         unusual=unusual_of(judgements, findings),
     )
+    return answer.model_copy(update={"finding": _finding(answer, why, own)})
+
+
+def short_causes(one: FileAnswer | TypedAnswer) -> list[str]:
+    """Short names of the known errors, those that are only possible last."""
+    certain = [word(f"name_{cause.error}") for cause in one.diagnosis]
+    possible = [word("may_be", error=word(f"name_{cause.error}")) for cause in one.possible]
+    return [*certain, *possible]
+
+
+def _finding(file: FileAnswer, why: Note | None, own: Note | None) -> str:
+    """What was found, in a few words. why: wrong numbers have no cause; own: remark on a turn of the team's own"""
+    found = [word(f"class_{own.code}")] if own else []
+    if file.verdict is Rating.ROUNDED:
+        found.append(file.headline)
+    found += short_causes(file) or ([str(why)] if why else [])
+    cells, missing = (sum(getattr(one, name) for one in file.sheets) for name in ("cells", "missing"))
+    if missing:
+        found.append(word("class_lacking", missing=f"{missing:,}", cells=f"{cells:,}"))
+    return word("and_error").join(found)
 
 
 def _headline(verdict: Rating, judgements: Sequence[JudgedSheet]) -> str:
@@ -387,7 +410,8 @@ def _worded(said: Note, *, shows_cells: bool, **own: Any) -> SheetAnswer:
     counts = {name: f"{getattr(sheet, name):,}" for name in ("right", "rounded", "cells")}
     title = sheet.sheet or word(SHEETS[TableKind(sheet.holds)])
     sentences = [word(line, title=title, verdict=said, **counts), *sheet.notes]
-    for name, cell in (("worst", sheet.worst), ("first", sheet.first)):
+    cells = {"only": sheet.first} if sheet.first == sheet.worst else {"worst": sheet.worst, "first": sheet.first}
+    for name, cell in cells.items():
         if cell and shows_cells:
             values = {"found": f"{cell.found:.6f}", "expected": f"{cell.expected:.6f}", "time": f"{cell.time:.9g}"}
             quantity = word("quantity_speed") if cell.quantity == "speed" else cell.quantity

@@ -178,7 +178,7 @@ export class Service {
   async #fetch(url, options, cancel = null) {
     try {
       const language = { "Accept-Language": document.documentElement.lang };
-      const response = await fetch(url, { ...options, headers: { ...options.headers, ...language } });
+      const response = await fetch(url, { ...options, headers: { ...language, ...options.headers } });
       return GATEWAY_ERRORS.includes(response.status) ? null : response;
     } catch {
       cancel?.throwIfAborted();

@@ -3,94 +3,130 @@
 import { button, download, make } from "./elements.js";
 import { announceRefusal } from "./overlays.js";
 import { announceSaved } from "./saved.js";
-import { say } from "./text.js";
+import { phrase, say, sentencesOf } from "./text.js";
 
-/** Endings of what is handed in, the wrong kinds included, for which the service has a sentence. */
-const HANDED_IN = /\.(xlsx|xlsm|xls|csv|png|jpe?g|pdf|docx?)$/i;
-/** Longest file that is unpacked [bytes]: the service reads none that is longer. */
-const LONGEST = 20_000_001;
+/** Endings of what is handed in, the wrong kinds included, for which the service has a sentence; and of archives. */
+const [HANDED_IN, ARCHIVE] = [/\.(xlsx|xlsm|xls|csv|png|jpe?g|pdf|docx?|numbers|et|ods)$/i, /\.zip$/i];
+/** Longest file that is unpacked, because the service reads none that is longer, and most of all together [bytes]; archives in one another. */
+const [LONGEST, MOST, DEEPEST] = [20_000_001, 1e9, 2];
 /** Signatures of a ZIP archive: the end of its list, and an entry of it. */
 const [END, ENTRY] = [0x06054b50, 0x02014b50];
 export const TYPES = { xlsx: "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet", csv: "text/csv" };
+/** Why there is nothing to grade. */
+const EMPTY = phrase("The folder is empty: nothing was handed in.");
+const OTHER = phrase("Nothing that was handed in is a workbook or a table (.xlsx or .csv): {name}");
+const LOCKED = phrase("It was not unpacked: it is locked, broken, longer than 20 MB, or an archive in too many others.");
+
+/** Order of two numbers, or of two names in which numbers count. */
+export const compare = (a, b) => (typeof a === "number" ? a - b : a.localeCompare(b, undefined, { numeric: true }));
 
 const foldersOf = (path) => path.split("/").slice(0, -1);
+const nameOf = (path) => path.split("/").filter(Boolean).at(-1);
 
-/** The files, each with its team: the first folder that not all of them share, else that in which all lie, or the name without an ending; empty for a file that lies alone. found: {file, path} */
+/**
+ * The files, each with its team: the first folder or archive that not all of them share, else that in which all lie, or the name without an ending; empty for a file that lies alone. A team of which nothing can be graded has one entry with the reason.
+ * found: {path, file}, or {path, left} with the reason
+ */
 function withTeams(found) {
   const sharedOf = (/** @type {string[][]} */ [first = [], ...others]) => {
     const differs = first.findIndex((name, k) => others.some((one) => one[k] !== name));
     return differs < 0 ? first.length : differs;
   };
-  const every = found.map(({ path }) => foldersOf(path)).filter(({ length }) => length);
+  const every = found.filter(({ left }) => left !== OTHER).map(({ path }) => foldersOf(path)).filter(({ length }) => length);
   // A file beside the folders of the teams is no team's.
   const deep = every.filter(({ length }) => length > 1);
   const root = deep.length && sharedOf(every) ? sharedOf(deep) : sharedOf(every);
-  return found.map(({ file, path }) => {
+  const entries = found.map(({ path, file, left }) => {
     const folders = foldersOf(path);
-    const own = folders[root] ?? (root > 1 ? folders[root - 1] : undefined);
-    return { file, team: own ?? (folders.length ? file.name.replace(/\.\w+$/, "") : "") };
+    const own = (folders[root] ?? (root > 1 ? folders[root - 1] : undefined))?.replace(ARCHIVE, "");
+    return { name: nameOf(path), file, left, isBeside: folders.length <= root, team: own ?? (folders.length ? nameOf(path).replace(/\.\w+$/, "") : "") };
   });
-}
-
-const isHandedIn = (path) => HANDED_IN.test(path) && !path.split("/").some((part) => /^(\.|~\$|__MACOSX)/.test(part));
-
-/** The bytes of a stream, at most so many. */
-async function bytesOf(stream, most) {
-  const parts = [];
-  let count = 0;
-  for (const reader = stream.getReader(); count < most; ) {
-    const { done, value } = await reader.read();
-    if (done) break;
-    parts.push(value);
-    count += value.length;
+  const full = new Set(entries.filter(({ left }) => !left || left === LOCKED).map(({ team }) => team));
+  const lacking = new Map();
+  for (const one of entries.filter(({ team, left, isBeside }) => !full.has(team) && !(isBeside && left === OTHER))) {
+    const before = lacking.get(one.team);
+    lacking.set(one.team, before?.left === OTHER ? { ...before, name: `${before.name}, ${nameOf(one.name)}` } : one);
   }
-  return new Blob(parts);
+  return [...entries.filter(({ left }) => !left || left === LOCKED), ...lacking.values()];
 }
 
-/** The files in a ZIP archive: {file, path}. */
-async function unzipped(archive) {
+const isHidden = (path) => path.split("/").some((part) => /^(\.|~\$|__MACOSX|Thumbs\.db)/i.test(part));
+const isEmpty = ({ path }, k, every) => path.endsWith("/") && !every.some((one) => one.path !== path && one.path.startsWith(path));
+
+/** The bytes of an entry of an archive; null for one that cannot be read, or is too long. room: {bytes} that are left */
+async function unpacked(data, method, room) {
+  const parts = [];
+  const stream = method === 8 ? data.stream().pipeThrough(new DecompressionStream("deflate-raw")) : data.stream();
+  let count = 0;
+  try {
+    for (const reader = stream.getReader(); ; ) {
+      const { done, value } = await reader.read();
+      if (done) return new Blob(parts);
+      parts.push(value);
+      count += value.length;
+      room.bytes -= value.length;
+      if (count > LONGEST || room.bytes < 0) return null;
+    }
+  } catch {
+    return null;
+  }
+}
+
+/** What is in a ZIP archive and in archives in it: {path, file}, {path, left} with the reason, or {path} of a folder. */
+async function unzipped(archive, path, room, depth = 1) {
   const view = new DataView(await archive.arrayBuffer());
   let end = view.byteLength - 22;
   while (end >= 0 && view.getUint32(end, true) !== END) end--;
+  if (end < 0) return [{ path, left: LOCKED }];
   const found = [];
-  if (end < 0) return found;
   let at = view.getUint32(end + 16, true);
   for (let left = view.getUint16(end + 10, true); left && at + 46 <= view.byteLength && view.getUint32(at, true) === ENTRY; left--) {
     const [flags, method, packed, name, extra, comment, local] = [view.getUint16(at + 8, true), view.getUint16(at + 10, true), view.getUint32(at + 20, true), view.getUint16(at + 28, true), view.getUint16(at + 30, true), view.getUint16(at + 32, true), view.getUint32(at + 42, true)];
     // Archives from Chinese versions of Windows have names in GB 18030.
-    const path = new TextDecoder(flags & 0x800 ? "utf-8" : "gb18030").decode(new Uint8Array(view.buffer, at + 46, name));
+    const inside = `${path}/${new TextDecoder(flags & 0x800 ? "utf-8" : "gb18030").decode(new Uint8Array(view.buffer, at + 46, name))}`;
     at += 46 + name + extra + comment;
-    if (!isHandedIn(path)) continue;
-    const begin = local + 30 + view.getUint16(local + 26, true) + view.getUint16(local + 28, true);
-    const data = archive.slice(begin, begin + packed);
-    const content = method === 8 ? await bytesOf(data.stream().pipeThrough(new DecompressionStream("deflate-raw")), LONGEST) : data;
-    found.push({ file: new File([content], path.split("/").at(-1)), path: `${archive.name}/${path}` });
+    if (isHidden(inside)) continue;
+    if (inside.endsWith("/")) found.push({ path: inside });
+    else if (!HANDED_IN.test(inside) && !ARCHIVE.test(inside)) found.push({ path: inside, left: OTHER });
+    else {
+      const isRead = !(flags & 1) && [0, 8].includes(method) && local + 30 <= view.byteLength;
+      const begin = isRead && local + 30 + view.getUint16(local + 26, true) + view.getUint16(local + 28, true);
+      const content = isRead && (await unpacked(archive.slice(begin, begin + packed), method, room));
+      if (!content || (ARCHIVE.test(inside) && depth >= DEEPEST)) found.push({ path: inside, left: LOCKED });
+      else if (ARCHIVE.test(inside)) found.push(...(await unzipped(content, inside, room, depth + 1)));
+      else found.push({ path: inside, file: new File([content], nameOf(inside)) });
+    }
   }
-  return found;
+  return found.length ? found : [{ path: `${path}/` }];
 }
 
-/** All files of what was chosen or dropped, each with its team: folders and archives are opened. */
-export async function handedIn(files) {
-  const [found, chosen] = [[], []];
-  for (const file of files) {
-    const path = file.webkitRelativePath || file.name;
-    if (/\.zip$/i.test(file.name)) found.push(...withTeams(await unzipped(file)));
-    else if (!file.webkitRelativePath || isHandedIn(path)) chosen.push({ file, path });
+/** All files of what was chosen or dropped, each with its team: folders and archives are opened. given: {path, file}, or {path} of a folder */
+export async function handedIn(given) {
+  const [found, chosen, room] = [[], [], { bytes: MOST }];
+  const of = (entries) => withTeams(entries.flatMap((one, k, every) => (one.file || one.left ? [one] : isEmpty(one, k, every) ? [{ ...one, left: EMPTY }] : [])));
+  const archives = given.filter(({ path }) => ARCHIVE.test(path) && !path.includes("/"));
+  for (const { file, path } of given) {
+    if (isHidden(path)) continue;
+    const inside = file && ARCHIVE.test(path) ? await unzipped(file, path, room) : [{ path, file, ...(file && path.includes("/") && !HANDED_IN.test(path) && { file: null, left: OTHER }) }];
+    const isTeam = archives.length > 1 && new Set(inside.map((one) => foldersOf(one.path).join("/"))).size === 1;
+    if (!archives.some((one) => one.file === file) || isTeam) chosen.push(...inside);
+    else found.push(...of(inside));
   }
-  return [...found, ...withTeams(chosen)];
+  return [...found, ...of(chosen)];
 }
 
-/** The files that were dropped, those of folders with their paths. */
+/** The chosen files, with their paths. */
+export const chosenOf = (files) => [...files].map((file) => ({ file, path: file.webkitRelativePath || file.name }));
+
+/** The files that were dropped, and the folders, with their paths. */
 export async function dropped({ items, files }) {
   const entries = [...items].map((item) => item.webkitGetAsEntry?.()).filter(Boolean);
-  if (!entries.some(({ isDirectory }) => isDirectory)) return [...files];
+  if (!entries.some(({ isDirectory }) => isDirectory)) return chosenOf(files);
   const every = [];
   const walk = async (entry) => {
-    if (!entry.isDirectory) {
-      const file = await new Promise((resolve, reject) => entry.file(resolve, reject));
-      Object.defineProperty(file, "webkitRelativePath", { value: entry.fullPath.slice(1) });
-      return every.push(file);
-    }
+    const path = entry.fullPath.slice(1);
+    if (!entry.isDirectory) return every.push({ path, file: await new Promise((resolve, reject) => entry.file(resolve, reject)) });
+    every.push({ path: `${path}/` });
     const reader = entry.createReader();
     for (let some; (some = await new Promise((resolve, reject) => reader.readEntries(resolve, reject))).length; ) for (const one of some) await walk(one);
   };
@@ -104,19 +140,32 @@ async function digestOf(file) {
   return [...new Uint8Array(await crypto.subtle.digest("SHA-256", await file.arrayBuffer()))].map((byte) => byte.toString(16).padStart(2, "0")).join("");
 }
 
-/** A row of the table for the service. graded: its answer about the file; null if it refused it */
-export async function rowOf({ file, team }, graded) {
-  const sum = (name) => (graded?.sheets ?? []).reduce((all, sheet) => all + sheet[name], 0);
-  const finding = graded?.diagnosis[0]?.words ?? graded?.notes[0] ?? "";
-  return { team: (team || file.name).slice(0, 200), file: file.name.slice(-200), workbook: graded?.workbook ?? null, verdict: graded?.verdict ?? "unreadable", cells: sum("cells"), right: sum("right"), rounded: sum("rounded"), missing: sum("missing"), finding: finding.slice(0, 1_000), unusual: graded?.unusual ?? [], digest: await digestOf(file) };
+/** The questions of a class, as the rubric names them, and those whose numbers are typed. */
+const QUESTIONS = ["result1", "result2", "question3", "result4", "question5"];
+export const TYPED = { pitch: "question3", speed: "question5" };
+/** Columns of the service's table. */
+const [TEAM, FILE, WORKBOOK, VERDICT, POINTS, FINDING, TEAM_POINTS, ALIKE, POINTS_MOST, TEAM_MOST] = [0, 1, 2, 3, 6, 7, 10, 11, 12, 13];
+export const MARKS = { right: "✓", rounded: "✓", incomplete: "!", infeasible: "✕", wrong: "✕", unreadable: "✕" };
+/** Verdicts on a typed number that is the right one to fewer digits. */
+const ROUNDED = ["rounded", "infeasible"];
+
+/** A row of the table for the service. found: what judge() gives */
+export async function rowOf({ file, team, name, text }, { answer, words = "" }) {
+  const [graded, typed] = [answer?.files[0], answer?.answers[0]];
+  const sum = (what) => (graded?.sheets ?? []).reduce((all, sheet) => all + sheet[what], 0);
+  const counts = typed ? { cells: 1, right: +(typed.verdict === "right"), rounded: +ROUNDED.includes(typed.verdict), missing: 0 } : { cells: sum("cells"), right: sum("right"), rounded: sum("rounded"), missing: sum("missing") };
+  const title = text ? (typed?.title ?? text) : (file?.name ?? name);
+  const finding = graded?.finding ?? typed?.headline ?? words;
+  return { team: (team || title).slice(0, 200), file: title.slice(-200), workbook: typed ? TYPED[name] : (graded?.workbook ?? null), verdict: (graded ?? typed)?.verdict ?? "unreadable", ...counts, finding: finding.slice(0, 1_000), unusual: graded?.unusual ?? [], digest: file ? await digestOf(file) : "" };
 }
 
-/** The table of a class. */
+/** The table of a class: a row for each team. */
 export class ClassTable {
   box = make("div", { className: "class" });
-  #rubric = "";
+  #rubric = { name: "", text: "" };
   #rows = [];
-  #sorted = { column: -1, down: false };
+  #language = "";
+  #sorted = { column: 0, down: false };
 
   /**
    * show(k): shows what is said of file k
@@ -127,12 +176,12 @@ export class ClassTable {
     this.show = show;
   }
 
-  /** Show the files with the points of a rubric; one that is refused changes nothing. rows: as rowOf() gives them */
-  async fill(rows, rubric = this.#rubric) {
+  /** Show the files with the points of a rubric; one that is refused changes nothing. rows: as rowOf() gives them, in a language */
+  async fill(rows, language = this.#language, rubric = this.#rubric) {
     const isNew = rows !== this.#rows;
-    this.#rows = rows;
+    [this.#rows, this.#language] = [rows, language];
     try {
-      this.table = await this.service.ask("class", "class-table", { body: { files: rows, rubric } });
+      this.table = await this.#ask("class", { files: rows, rubric: rubric.text });
       this.#rubric = rubric;
       this.#draw();
     } catch (error) {
@@ -141,41 +190,76 @@ export class ClassTable {
     }
   }
 
-  /** The rows in the order in which they are shown, each with its place in the class. */
-  #order() {
+  /** Ask in the language in which the files were graded, because the page may have another one meanwhile. */
+  #ask(channel, body, accept = "application/json") {
+    return this.service.ask(channel, "class-table", { body, accept, headers: { "Accept-Language": this.#language } });
+  }
+
+  /** The teams, each with the places of its files in the class, in the order in which they are shown. */
+  #teams(columns) {
+    const every = this.table.rows.map((row, k) => ({ row, k }));
+    const teams = [...Map.groupBy(every, ({ row }) => row[TEAM]).values()];
     const { column, down } = this.#sorted;
-    const order = this.table.rows.map((row, k) => ({ row, k }));
-    if (column >= 0) order.sort((a, b) => (down ? -1 : 1) * (typeof a.row[column] === "number" ? a.row[column] - b.row[column] : String(a.row[column]).localeCompare(String(b.row[column]))));
-    return order;
+    const value = (files) => columns[Math.min(column, columns.length - 1)].value(files);
+    return teams.sort((a, b) => (down ? -1 : 1) * compare(value(a), value(b)));
+  }
+
+  /** Columns: {head, value of a team by which it is sorted, cells} */
+  #columns() {
+    const { heads, rows } = this.table;
+    const points = (value, most) => say("{points} of {most}", { points: value, most });
+    const line = ({ row, k }) => {
+      const { verdict } = this.#rows[k];
+      const mark = make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[verdict] });
+      const words = row[WORKBOOK] ? points(row[POINTS], row[POINTS_MOST]) : row[FILE];
+      const label = `${row[TEAM]} / ${row[FILE]}: ${row[VERDICT]}`;
+      return make("p", {}, button({ className: `is-${verdict}`, title: label, ariaLabel: `${label}, ${words}` }, () => this.show(k), mark, words), make("span", { textContent: row[FINDING] || row[VERDICT] }));
+    };
+    const files = (head, isOf) => ({ head, value: (of) => Math.max(-1, ...of.filter(({ row }) => isOf(row)).map(({ row }) => row[POINTS])), cells: (of) => of.filter(({ row }) => isOf(row)).map(line) });
+    const text = (head, words, value = words) => ({ head, value, cells: (of) => [words(of)] });
+    const isThere = (name) => name.startsWith("result") || rows.some((row) => row[WORKBOOK] === name);
+    const known = (row) => QUESTIONS.includes(row[WORKBOOK]);
+    return [
+      text(heads[TEAM], ([{ row }]) => row[TEAM]),
+      text(heads[TEAM_POINTS], ([{ row }]) => points(row[TEAM_POINTS], row[TEAM_MOST]), ([{ row }]) => row[TEAM_POINTS]),
+      ...QUESTIONS.filter(isThere).map((name) => files(name, (row) => row[WORKBOOK] === name)),
+      ...(rows.every(known) ? [] : [files(say("other files"), (row) => !known(row))]),
+      ...(rows.some((row) => row[ALIKE]) ? [text(heads[ALIKE], (of) => [...new Set(of.map(({ row }) => row[ALIKE]).filter(Boolean))].join("; "))] : []),
+    ];
   }
 
   #draw() {
-    const { heads, rows, teams, notes } = this.table;
+    const { rows, notes, scheme } = this.table;
+    const columns = this.#columns();
     const { column, down } = this.#sorted;
-    const head = (words, k) => make("th", { scope: "col", "aria-sort": k === column ? (down ? "descending" : "ascending") : "none" }, button({ textContent: words }, () => this.#sort(k)));
-    const line = ({ row, k }) => make("tr", {}, ...row.map((cell, place) => make("td", { className: typeof cell === "number" ? "number" : "" }, place === 1 ? button({ textContent: cell }, () => this.show(k)) : String(cell))));
-    const table = make("table", {}, make("thead", {}, make("tr", {}, ...heads.map(head))), make("tbody", {}, ...this.#order().map(line)));
-    const points = make("ol", { className: "teams" }, ...teams.map(([team, value]) => make("li", { textContent: say("{team}: {points} points", { team, points: value }) })));
+    const head = ({ head: words }, k) => make("th", { scope: "col", "aria-sort": k === column ? (down ? "descending" : "ascending") : "none" }, button({ textContent: words }, () => this.#sort(k)));
+    const teams = this.#teams(columns);
+    const line = (files) => make("tr", {}, ...columns.map(({ cells }, k) => make(k ? "td" : "th", k ? {} : { scope: "row" }, ...cells(files))));
+    const table = make("table", {}, make("thead", {}, make("tr", {}, ...columns.map(head))), make("tbody", {}, ...teams.map(line)));
     const chosen = make("input", { type: "file", accept: ".csv", hidden: true });
     chosen.addEventListener("change", async () => {
       const [file] = chosen.files;
       chosen.value = "";
-      if (file) await this.fill(this.#rows, (await file.text()).replaceAll("\0", ""));
+      if (file) await this.fill(this.#rows, this.#language, { name: file.name, text: (await file.text()).replaceAll("\0", "") });
     });
     const buttons = [...Object.keys(TYPES).map((form) => button({ textContent: say("Save as {form}", { form: form.toUpperCase() }) }, () => this.#save(form))), button({ textContent: say("Save the rubric, to edit it") }, () => this.#saveRubric()), button({ textContent: say("Use a rubric …") }, () => chosen.click())];
-    const parts = [make("p", { className: "buttons" }, ...buttons), chosen, ...notes.map((textContent) => make("p", { className: "hint", textContent })), make("div", { className: "scrolls", tabIndex: 0, role: "region", ariaLabel: say("Table of the class") }, table)];
-    this.box.replaceChildren(make("h3", { textContent: say("Class: {count} files", { count: rows.length }) }), ...parts, make("details", {}, make("summary", { textContent: say("Points of each team") }), points));
+    const rubric = this.#rubric.name ? say("The rubric is {name}.", { name: this.#rubric.name }) : say("The rubric is the usual one.");
+    const remarks = [...notes, sentencesOf([rubric, scheme])].map((textContent) => make("p", { className: "hint", textContent }));
+    const title = make("h3", { textContent: say("Class: {teams} teams, {count} files", { teams: teams.length, count: rows.length }) });
+    this.box.replaceChildren(title, make("p", { className: "buttons" }, ...buttons), chosen, ...remarks, make("div", { className: "scrolls", tabIndex: 0, role: "region", ariaLabel: say("Table of the class") }, table));
   }
 
   #sort(column) {
     this.#sorted = { column, down: this.#sorted.column === column && !this.#sorted.down };
     this.#draw();
+    this.box.querySelectorAll("thead button")[column].focus();
   }
 
   async #save(form) {
     const name = `class.${form}`;
     try {
-      download(await this.service.ask(`class ${form}`, "class-table", { body: { files: this.#order().map(({ k }) => this.#rows[k]), rubric: this.#rubric }, accept: TYPES[form] }), name);
+      const files = this.#teams(this.#columns()).flat().map(({ k }) => this.#rows[k]);
+      download(await this.#ask(`class ${form}`, { files, rubric: this.#rubric.text }, TYPES[form]), name);
       announceSaved(name);
     } catch (error) {
       announceRefusal(error);

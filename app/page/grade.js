@@ -1,8 +1,8 @@
 /** The grader: dropped or chosen workbooks, and typed answers, each with the service's verdict. */
 
 import { Problem, Superseded } from "./api.js";
-import { ClassTable, dropped, handedIn, rowOf } from "./class.js";
-import { $, bearer, make, onClick } from "./elements.js";
+import { ClassTable, MARKS, TYPED, chosenOf, compare, dropped, handedIn, rowOf } from "./class.js";
+import { $, $$, bearer, hide, make, onClick } from "./elements.js";
 import { say } from "./text.js";
 
 /** Answers that may be typed. @type {Phrases} */
@@ -15,12 +15,13 @@ const ANSWERS = {
 /** Colour of each mark of a picture; right cells are pale. */
 const COLOURS = { ".": "--line", o: "--undecided", "#": "--contact", "?": "--border" };
 const OUTCOMES = { right: "clear", rounded: "clear", incomplete: "undecided", infeasible: "contact", wrong: "contact", unreadable: "contact" };
-const MARKS = { right: "✓", rounded: "✓", incomplete: "!", infeasible: "✕", wrong: "✕", unreadable: "✕" };
 const CELL = 6;
 /** Meaning of each mark of a picture. @type {Phrases} */
 const MEANINGS = { ".": "right", o: "rounded", "#": "wrong", "?": "missing" };
 export class Grader {
+  /** What is graded: files, each with its team or none, and typed answers, of a class each with its team. @type {any[]} */
   #files = [];
+  #typed = [];
   #answers = [];
   #language = null;
   #working = "";
@@ -33,7 +34,7 @@ export class Grader {
   constructor(service) {
     this.service = service;
     const drop = $("#drop");
-    for (const id of ["#files", "#folder"]) $(id).addEventListener("change", (event) => this.#take([...event.target.files]));
+    for (const id of ["#files", "#folder"]) $(id).addEventListener("change", (event) => this.#take(chosenOf(event.target.files)));
     this.table = new ClassTable(service, (k) => this.#open(k));
     for (const name of ["dragover", "drop"]) drop.addEventListener(name, (event) => event.preventDefault());
     for (const name of ["dragenter", "dragover"]) drop.addEventListener(name, () => drop.classList.add("over"));
@@ -41,13 +42,15 @@ export class Grader {
     drop.addEventListener("drop", async (event) => this.#take(await dropped(event.dataTransfer)));
     $("#typed").addEventListener("submit", (event) => {
       event.preventDefault();
+      this.#takeTyped();
       this.#grade();
     });
     onClick("#grade-clear", () => {
       for (const id of ["#files", "#folder"]) $(id).value = "";
       this.#chosen = -1;
       $("#typed").reset();
-      [this.#files, this.#answers] = [[], []];
+      [this.#files, this.#typed, this.#answers] = [[], [], []];
+      this.#offer();
       this.#tell("");
     });
   }
@@ -61,8 +64,8 @@ export class Grader {
 
   show() {
     const shown = this.isClass ? [this.table.box, ...(this.#answers[this.#chosen] ?? [])] : this.#answers.flat();
-    $("#grades").replaceChildren(...shown);
-    if (this.#working) $("#grades").append(make("p", { className: "hint", role: "status", textContent: this.#working }));
+    const working = this.#working ? [make("p", { className: "hint", role: "status", textContent: this.#working })] : [];
+    $("#grades").replaceChildren(...working, ...shown);
   }
 
   /** Show everything, with what is going on. */
@@ -71,10 +74,29 @@ export class Grader {
     this.show();
   }
 
-  async #take(files) {
-    this.#files = await handedIn(files);
+  async #take(given) {
+    this.#files = await handedIn(given);
+    this.#typed = [];
     this.#chosen = -1;
+    this.#offer();
+    if (!this.isClass) this.#takeTyped();
     this.#grade();
+  }
+
+  /** Take the typed answers: of a class those of the chosen team, in place of its answers before. */
+  #takeTyped() {
+    const team = this.isClass ? $("#typed-team").value : "";
+    const typed = Object.keys(ANSWERS).filter((name) => !team || name in TYPED).map((name) => ({ name, team, text: $(`#typed-${name}`).value.trim() })).filter(({ text }) => text);
+    this.#typed = [...this.#typed.filter((one) => team && !typed.some(({ name }) => one.team === team && one.name === name)), ...typed];
+    if (team) for (const name of Object.keys(TYPED)) $(`#typed-${name}`).value = "";
+  }
+
+  /** Offer the fields of a class, or those of one's own answers. */
+  #offer() {
+    for (const element of $$("#grade .of-team")) hide(element, !this.isClass);
+    for (const element of $$("#grade .alone")) hide(element, this.isClass);
+    const teams = [...new Set(this.#files.map(({ team, file, name }) => team || (file?.name ?? name)))].sort(compare);
+    $("#typed-team").replaceChildren(...teams.map((team) => make("option", { textContent: team, value: team })));
   }
 
   /** True for files of teams, which stand on one table. */
@@ -90,21 +112,24 @@ export class Grader {
   }
 
   async #grade() {
-    const typed = Object.keys(ANSWERS).map((name) => ({ name, text: $(`#typed-${name}`).value.trim() })).filter(({ text }) => text);
-    const asked = this.isClass ? this.#files : [...typed, ...this.#files];
+    const language = this.#language;
+    const asked = this.isClass ? [...this.#files, ...this.#typed] : [...this.#typed, ...this.#files];
     /** @type {Element[][]} */
     const results = [];
     const rows = [];
     this.#answers = results;
     for (const [k, one] of asked.entries()) {
-      this.#tell(say("Grading {name} ({k} of {count}) …", { name: one.file?.name ?? say(ANSWERS[one.name]), k: k + 1, count: asked.length }));
-      const found = await judge(this.service, "grade", { ...one, language: this.#language });
+      const name = titleOf(one.text ? say(ANSWERS[one.name]) : (one.file?.name ?? one.name), one.team);
+      this.#tell(say("Grading {name} ({k} of {count}) …", { name, k: k + 1, count: asked.length }));
+      // What was graded in this language before stays; what was refused is asked again.
+      const found = one[language] ?? (await judge(this.service, "grade", { ...one, language }));
       if (!found || this.#answers !== results) return;
+      if (found.answer) one[language] = found;
       results.push(found.boxes);
-      if (this.isClass) rows.push(await rowOf(one, found.answer?.files[0]));
+      if (this.isClass) rows.push((found.row ??= await rowOf(one, found)));
       this.show();
     }
-    if (rows.length) await this.table.fill(rows);
+    if (rows.length) await this.table.fill(rows, language);
     if (this.#answers !== results) return;
     this.#tell("");
   }
@@ -112,15 +137,17 @@ export class Grader {
 
 /**
  * What the service says of a file, or of an answer that was typed, with its boxes; null if another question took its place.
- * name: of the answer, with its text; file: a workbook; team: which handed it in
+ * name: of the answer, with its text, or of what is left out for that reason; file: a workbook; team: which handed it in
  * @param {Service} service
  * @param {string} channel
- * @param {{ name?: string, text?: string, file?: File, team?: string, language: string }} asked
+ * @param {{ name?: string, text?: string, file?: File, team?: string, left?: string, language: string }} asked
  */
 export async function judge(service, channel, asked) {
-  const { name = "", text = "", file, team, language } = asked;
-  const title = file ? titleOf(file.name, team) : say(ANSWERS[name]);
-  if (file?.size === 0) return { boxes: [refusedBox(title, say("The file is empty."))] };
+  const { name = "", text = "", file, team, left, language } = asked;
+  const title = titleOf(file?.name ?? (text ? say(ANSWERS[name]) : name), team);
+  const refused = (words) => ({ words, boxes: [refusedBox(title, words)] });
+  if (left) return refused(say(left, { name }));
+  if (file?.size === 0) return refused(say("The file is empty."));
   const query = file ? { name: file.name.slice(-200), language } : { [name]: text, language };
   try {
     const answer = await service.ask(channel, "grade", { query, file: file ?? new Blob(), headers: bearer() });
@@ -128,7 +155,7 @@ export async function judge(service, channel, asked) {
   } catch (error) {
     if (error instanceof Superseded) return null;
     if (!(error instanceof Problem)) throw error;
-    return { boxes: [refusedBox(title, error.problem.sentence)] };
+    return refused(error.problem.sentence);
   }
 }
 
@@ -144,7 +171,7 @@ const titleOf = (name, team) => (team ? `${team} / ${name}` : name);
 
 /** The boxes of one answer of the service. */
 function boxes({ files, answers }, team) {
-  const typed = answers.map((one) => box(one.title, one.verdict, one.headline, [...one.sentences.map((line) => paragraph(line)), ...diagnosis(one)]));
+  const typed = answers.map((one) => box(titleOf(one.title, team), one.verdict, one.headline, [...one.sentences.map((line) => paragraph(line)), ...diagnosis(one)]));
   return [...typed, ...files.map((file) => fileBox(file, team))];
 }
 

@@ -1,7 +1,7 @@
 /** The five questions of the contest on one strip: each with its answer, why, a picture, what is handed in, and a check of one's own. */
 
 import { Problem, Superseded } from "./api.js";
-import { TYPES, handedIn } from "./class.js";
+import { TYPES, chosenOf, handedIn } from "./class.js";
 import { $, button, download, make } from "./elements.js";
 import { FIELDS } from "./fields.js";
 import { judge } from "./grade.js";
@@ -102,7 +102,7 @@ const archiveOf = (question) => `bench-dragon-question-${question}.zip`;
 /** What is judged of a file: itself, or of an archive the workbook of this name, else its workbooks, else its tables. */
 async function judgedOf(file, workbook) {
   if (!/\.zip$/i.test(file.name)) return [file];
-  const files = (await handedIn([file])).map((one) => one.file);
+  const files = (await handedIn(chosenOf([file]))).map((one) => one.file).filter(Boolean);
   const kinds = [files.filter(({ name }) => name === workbook), ...JUDGED.map((ending) => files.filter(({ name }) => ending.test(name)))];
   return kinds.find((some) => some.length) ?? [];
 }

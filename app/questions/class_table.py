@@ -10,7 +10,18 @@ from pydantic import Field
 
 from app.files.tables import CSV_TYPE, XLSX_TYPE
 from app.files.workbooks import table_workbook
-from app.grade.class_table import ClassRow, names_beside, points_of, remarks, rubric_of, rubric_text, team_points
+from app.grade.class_table import (
+    ClassRow,
+    most_of,
+    names_beside,
+    points_of,
+    remarks,
+    rubric_of,
+    rubric_text,
+    scheme,
+    team_most,
+    team_points,
+)
 from app.grade.judged import Rating
 from app.grade.words import word
 from app.wire.fields import Answer, OneLine, Whole, Wire
@@ -26,7 +37,11 @@ class GradedFile(Wire, strict=True):
 
     team: OneLine = Field(max_length=200, description="Who handed it in")
     file: OneLine = Field(max_length=200, description="Its name")
-    workbook: OneLine | None = Field(None, max_length=20, description="result1, result2 or result4; null if unknown")
+    workbook: OneLine | None = Field(
+        None,
+        max_length=20,
+        description="result1, result2 or result4; question3 or question5 for a number; null if unknown",
+    )
     verdict: Rating = Field(description="Its verdict", strict=False)
     cells: Whole = Field(0, ge=0, le=CELLS_MAX, description="Number of cells that the contest requires")
     right: Whole = Field(0, ge=0, le=CELLS_MAX, description="Number of those that are right")
@@ -71,11 +86,12 @@ class ClassTable(Answer):
     """A class on one table.
 
     heads: heads of the columns: team, file, workbook, verdict, cells, right, points, finding, rounded, missing, points
-        of the team, files that are alike
+        of the team, files that are alike, most points of the file, most points of the team
     rows: a row for each file, in its order
     teams: each team and its points, the most first [points]
     notes: remarks, such as that two teams handed in the same file
     rubric: the rubric as a file that a teacher may edit, as CSV
+    scheme: the rubric in words
     """
 
     heads: list[str]
@@ -83,11 +99,12 @@ class ClassTable(Answer):
     teams: list[list[str | float]]
     notes: list[str]
     rubric: str
+    scheme: str = Field(default="")
 
 
 COLUMNS = (
     *("team", "file", "workbook", "verdict", "cells", "right", "points", "finding"),
-    *("rounded", "missing", "team_points", "alike"),
+    *("rounded", "missing", "team_points", "alike", "points_most", "team_most"),
 )
 
 
@@ -95,14 +112,14 @@ def class_table(request: ClassTableRequest, terms: Terms, form: str) -> ClassTab
     """The graded files of a class on one table, with points of every file and team, as JSON, CSV or a workbook."""
     rubric, rows = rubric_of(request.rubric), [one.to_row() for one in request.files]
     heads = [word(f"class_{name}") for name in COLUMNS]
-    teams, notes = dict(team_points(rows, rubric)), remarks(rows)
+    teams, notes, most = dict(team_points(rows, rubric)), remarks(rows), team_most(rows, rubric)
     beside = names_beside(rows, [group for group, _ in notes])
     table: list[list[str | int | float]] = [
         [
             row.team,
             row.file,
             row.workbook or "",
-            word(row.verdict.value),
+            word("class_rounded" if row.verdict is Rating.ROUNDED else row.verdict.value),
             row.cells,
             row.right,
             points_of(row, rubric),
@@ -111,13 +128,16 @@ def class_table(request: ClassTableRequest, terms: Terms, form: str) -> ClassTab
             row.missing,
             teams[row.team],
             names,
+            most_of(row, rubric),
+            most,
         ]
         for row, file, names in zip(rows, request.files, beside, strict=True)
     ]
     if form == JSON:
         every: list[list[str | float]] = [[team, points] for team, points in teams.items()]
         said = [words for _, words in notes]
-        return ClassTable(heads=heads, rows=table, teams=every, notes=said, rubric=rubric_text(rubric))
+        words = scheme(rows, rubric)
+        return ClassTable(heads=heads, rows=table, teams=every, notes=said, rubric=rubric_text(rubric), scheme=words)
     if form == XLSX_TYPE:
         return table_workbook(word("class_sheet"), heads, table)
     cells = [[text_to_cell(cell) if isinstance(cell, str) else cell for cell in row] for row in table]

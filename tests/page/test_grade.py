@@ -11,6 +11,7 @@ from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, contact_workbook
 FEW = SPIRAL_TIMES[:21]
 EASY = "?benches=5&time=end"
 BOX = "#grades .answer"
+TEAMS, RUBRIC = "#grades .class tbody th", "#grades .class input[type=file]"
 DROP = """data => {
   const files = new DataTransfer();
   files.items.add(new File([new Uint8Array(data)], "result2.xlsx"));
@@ -71,6 +72,10 @@ def types_and_drops(person, files):
     person.takes(files[:2], "#files").sees({"#grades [role=status]": "result1.xlsx (1 of 2)"})
 
 
+def row_of(team):
+    return f"#grades tr:has(th:text-is('{team}'))"
+
+
 # A folder as a browser hands it over when it is dropped, with a folder for each team, in two readings.
 DROP_FOLDER = """data => {
   const file = (name) => new File([new Uint8Array(data)], name);
@@ -89,33 +94,56 @@ def test_a_dropped_folder_is_a_class(open_page, files):
     person = open_page(EASY).reaches_below()
     person.ask(DROP_FOLDER, list(files[1].read_bytes()))
     person.sees({"#grades .class tbody tr": 2, "#grades .class .hint": "Red/result2.xlsx, Gold/result2.xlsx"})
-    assert person.texts("#grades .class tbody td:first-child") == ["Red", "Gold"]
+    assert person.texts(TEAMS) == ["Gold", "Red"]
 
 
 def test_a_class_is_graded_from_an_archive_sorted_saved_and_two_equal_files_are_pointed_out(open_page, files, tmp_path):
-    archive = tmp_path / "class.zip"
+    inner, archive = tmp_path / "ours.zip", tmp_path / "class.zip"
+    with ZipFile(inner, "w", ZIP_DEFLATED) as written:
+        written.write(files[0], "result1.xlsx")
     with ZipFile(archive, "w", ZIP_DEFLATED) as written:
         for team, file in (("红队", files[1]), ("Gold", files[1]), ("Blue", files[3])):
             written.write(file, f"{team}/results/{file.name}" if team == "Gold" else f"{team}/{file.name}")
         written.writestr("__MACOSX/Gold/._result2.xlsx", b"of a system")
         written.writestr("Blue/screenshot.png", b"\x89PNG\r\n\x1a\n" + bytes(99))
-    person = open_page(EASY, failing=True).reaches_below()
-    person.takes(archive, "#files").sees({"#grades .class h3": "Class: 4 files", "#grades .class tbody tr": 4})
-    person.sees({"#grades .class .hint": "红队/result2.xlsx, Gold/result2.xlsx"})
-    teams = "#grades .class tbody td:first-child"
-    assert person.texts(teams) == ["红队", "Gold", "Blue", "Blue"]
-    person.presses("#grades .class th:first-child button").has("#grades .class th:first-child", aria_sort="ascending")
-    assert person.texts(teams)[:3] == ["Blue", "Blue", "Gold"]
-    person.presses("#grades tr:has-text('screenshot.png') td button").sees(
-        {f"{BOX}": "is a picture, such as a screenshot"}
+        written.write(inner, "Green/ours.zip")
+        written.writestr("Grey/", b"")
+        written.writestr("Pink/ours.rar", b"Rar!")
+    person = open_page(f"{EASY}&door=contest", failing=True).presses("#to-grade").reaches_below()
+    person.takes(archive, "#files").sees({"#grades .class h3": "Class: 6 teams, 7 files", TEAMS: 6})
+    person.sees({"#grades .class .hint >> nth=0": "红队/result2.xlsx, Gold/result2.xlsx"})
+    assert person.texts(TEAMS)[:5] == ["Blue", "Gold", "Green", "Grey", "Pink"]
+    person.sees(
+        {
+            f"{row_of('Green')} td >> nth=1": "length for chord",
+            f"{row_of('Grey')}": "The folder is empty",
+            f"{row_of('Pink')}": "workbook or a table (.xlsx or .csv): ours.rar",
+            f"{row_of('Gold')} td >> nth=0": "20 of 100",
+        }
     )
+    points = "#grades .class th:nth-child(2)"
+    person.presses(f"{points} button").presses(f"{points} button").has(points, aria_sort="descending")
+    assert set(person.texts(TEAMS)[:2]) == {"红队", "Gold"}
+    person.presses(f"{row_of('Blue')} button:has-text('screenshot.png')").sees({f"{BOX}": "is a picture, such as a"})
     assert person.findings("#grades") == []
+    person.chooses({"#typed-team": "Gold"}).types({"#typed-pitch": "0.4504"}).sees(
+        {f"{row_of('Gold')} td >> nth=0": "30 of 110", "#typed-collision_time": False}
+    )
     rubric = person.saves("#grades .class .buttons button >> nth=2", "rubric.csv").decode("utf-8-sig")
     (tmp_path / "mine.csv").write_text(rubric.replace("result2,20", "result2,55"), encoding="utf-8")
-    person.takes(tmp_path / "mine.csv", "#grades .class input[type=file]").sees(
-        {"#grades tr:has-text('Gold') .number >> nth=2": "55"}
+    person.takes(tmp_path / "mine.csv", RUBRIC).sees(
+        {f"{row_of('Gold')} td >> nth=0": "65 of 145", "#grades .class .hint >> nth=1": "The rubric is mine.csv."}
     )
     (tmp_path / "typo.csv").write_text("rounded,o.5\n")
-    person.takes(tmp_path / "typo.csv", "#grades .class input[type=file]").sees({"#status": "o.5"})
-    assert b"Gold" in person.saves("#grades .class .buttons button >> nth=1", "class.csv")
-    person.speaks("zh").sees({"#grades .class h3": "班级：4 个文件", "#grades .class th >> nth=0": "队伍"})
+    person.takes(tmp_path / "typo.csv", RUBRIC).sees({"#status": "o.5"}).has(points, aria_sort="descending")
+    # While the class is graded in another language, what is saved has the one of its table.
+    held = person.holds_back("**/grade?*")
+    person.at("[data-lang=zh]:visible").click()
+    person.sees({"#grades [role=status]": "8"})
+    saved = person.saves("#grades .class .buttons button >> nth=1", "class.csv").decode()
+    assert "what was found" in saved
+    assert "班级" not in saved
+    assert "发现" not in saved
+    held.let_go()
+    person.sees({"#grades .class h3": "班级：6 个队，8 个文件", TEAMS: 6})
+    assert "发现" in person.saves("#grades .class .buttons button >> nth=1", "class.csv").decode()

@@ -71,9 +71,10 @@ def test_a_class_has_the_points_of_a_rubric_and_equal_files_are_pointed_out(clas
     rubric.write_text("what,points\nresult2,55\n", encoding="utf-8")
     done = run("grade", str(class_of_three), "--rubric", str(rubric))
     shutil.rmtree(copy.parent)
-    table, _, remark = done.stdout.rpartition("team ")[2].partition("These are the same file")
-    points = dict(line.split() for line in table.splitlines()[2:] if line.strip())
-    assert (points["wang"], points["zhou"], points["zhao"]) == ("55", "55", "0")
+    before, _, remark = done.stdout.partition("These are the same file")
+    table = before.partition("Most points: ")[0].rpartition("team ")[2]
+    points = dict(line.split(maxsplit=1) for line in table.splitlines()[2:] if line.strip())
+    assert [points[team].strip() for team in ("wang", "zhou", "zhao")] == ["55 of 135", "55 of 135", "0 of 135"]
     assert "wang/result2.xlsx, zhou/mine.xlsx" in remark
 
 
@@ -94,7 +95,7 @@ def test_the_words_are_in_the_language_chosen(class_of_three, tmp_path, monkeypa
     other = class_of_three / "li" / "result2.xlsx"
     done = run("grade", str(other), file.name, "--pitch", "0.4202", "--language", "zh", "--summary", str(summary))
     assert "以 0.01 / 0.02 / 0.04 / 0.08 s 为步长搜索" in done.stdout
-    assert "误差最大：D7，第5节龙身前把手，412.473838 s 时，速度：" in done.stdout
+    assert "误差最大的：D7（第5节龙身前把手，412.473838 s 时的速度），" in done.stdout
     assert "other_instant" not in done.stdout
     heads, number, *rows = rows_of(summary)
     assert heads == ("文件", "工作簿", "判定", "单元格", "正确", "缺少", "诊断", "小数位")

@@ -7,7 +7,7 @@ from dataclasses import replace
 import openpyxl
 import pytest
 
-from app.grade.class_table import ClassRow, alike, points_of, rubric_of, rubric_text, team_points
+from app.grade.class_table import ClassRow, alike, points_of, rubric_of, rubric_text, team_most, team_points
 from app.grade.judged import Rating
 from tests.support.asking import assert_problem
 
@@ -35,6 +35,21 @@ def test_points_follow_the_rubric_and_teams_are_ordered_by_them(client):
     assert chinese["rows"][0][3] == "正确"
 
 
+def test_a_typed_number_counts_for_its_question_and_then_in_what_everyone_may_reach(client):
+    pitch = {"team": "Red", "file": "0.45 m", "workbook": "question3", "verdict": "right", "cells": 1, "right": 1}
+    usual, typed = (
+        client.post("/class-table", json={"files": files}).raise_for_status().json()
+        for files in (CLASS, [*CLASS, pitch])
+    )
+    assert [line[13] for line in usual["rows"]] == [100.0] * 4
+    assert "Questions 3 and 5 have no workbook" in usual["scheme"]
+    assert [line[13] for line in typed["rows"]] == [110.0] * 5
+    assert typed["teams"] == [["Red", 68.0], ["Gold", 20.0]]
+    assert typed["rows"][4][12] == 10.0
+    # Numbers that are right to three decimals of six were not rounded by anyone.
+    assert typed["rows"][1][3] == "right to fewer decimals"
+
+
 def test_points_fall_by_what_is_wrong_and_by_no_more():
     """A result1 of four decimals, and the same one with one slip; and no share for what is near by chance."""
     cells = 202_272
@@ -59,7 +74,10 @@ def test_the_table_opens_in_a_spreadsheet_and_no_cell_is_a_formula(client):
 @pytest.mark.parametrize(
     "rubric, words",
     [
-        ("what,points\nresult3,10\n", "line 2 of the rubric must begin with one of result1, result2, result4, rounded"),
+        (
+            "what,points\nresult3,10\n",
+            "line 2 of the rubric must begin with one of result1, result2, question3, result4, question5, rounded",
+        ),
         ("result1,lots\n", "line 1 of the rubric must have a number from 0 to 1000 behind result1"),
         ("result1,40\nrounded,2\n", "line 2 of the rubric must have a number from 0 to 1 behind rounded"),
         ("result1,nan\n", "line 1 of the rubric must have a number"),
@@ -73,10 +91,13 @@ def test_a_rubric_that_cannot_be_read_is_refused_by_its_line(client, rubric, wor
 
 
 def test_a_rubric_reads_as_it_is_written():
-    rubric = {"result1": 12.5, "result2": 0.0, "result4": 30.0, "rounded": 1.0}
+    rubric = {"result1": 12.5, "result2": 0.0, "question3": 5.0, "result4": 30.0, "question5": 7.5, "rounded": 1.0}
     assert rubric_of("\ufeff" + rubric_text(rubric)) == rubric
     assert points_of(row("Red", ""), rubric) == 12.5
-    assert rubric_of("Wofür;Punkte\nresult1;12,5\nresult2;0\nresult4;30\nrounded;1\n") == rubric
+    # One of before questions 3 and 5 had points, as a table of another language.
+    before = rubric_of("Wofür;Punkte\nresult1;12,5\nresult2;0\nresult4;30\nrounded;1\n")
+    assert before == rubric | {"question3": 10.0, "question5": 10.0}
+    assert team_most([row("Red", "")], before) == 42.5
 
 
 def test_of_two_files_for_one_workbook_the_better_counts():
@@ -114,3 +135,9 @@ def test_wrong_numbers_that_two_teams_share_are_counted_and_right_ones_accuse_no
     assert "Blue" not in remark
     assert "cop" not in remark
     assert alike([row(team, team) for team in ("Red", "Gold")]) == []
+    # One of two files is a copy of the other that was rounded to four decimals.
+    rounded = tuple(f"{number[:-2]}00" for number in others)
+    [remark] = alike(
+        [replace(row(*one), unusual=some) for one, some in ((("Red", "a"), others), (("Blue", "b"), rounded))]
+    )
+    assert "in 4 of the 4 cells" in remark
