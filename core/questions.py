@@ -73,6 +73,16 @@ def unanswered(
     return error
 
 
+def drawn(subject: Any, missing: str, draw: Callable[[], bytes]) -> bytes:
+    """What is drawn of a dance, or of several. missing: as in unanswered(); raises: TooMuchWork when a budget ends"""
+    try:
+        return draw()
+    except Halted as ended:
+        if parts := getattr(subject, "parts", ()):
+            raise unanswered(ended.budget, "parts", missing, len(parts), "dragons", timed=True) from ended
+        raise unanswered(ended.budget, "dragon.benches", missing, subject.dragon.benches, timed=True) from ended
+
+
 class EitherQuestion(Protocol[A_contra, B_contra, P, R_co, S_co]):
     """A question that takes a subject of either kind, and has an answer for each."""
 

@@ -8,7 +8,6 @@ from typing import Any, Self
 from pydantic import Field
 
 from app.cards.words import CardWords
-from app.wire.clocks import time_of_day
 from app.wire.fields import Answer, measure
 from core.people import cards as rule
 from core.people import cues as facts
@@ -223,23 +222,18 @@ class PerformanceCues(Answer):
         return cls(cards=[_dragon_card(card, words) for cards, words in decks for card in cards])
 
 
-def _clock(time: float, words: CardWords) -> str | None:
-    start = words.clock.start_clock
-    return None if start is None else time_of_day(time, start)
-
-
 def _neighbour(bench: int | None, words: CardWords) -> Neighbour | None:
     return None if bench is None else Neighbour(bench=bench, name=words.names[bench] if words.names else "")
 
 
 def _stand(at: facts.Stand, words: CardWords) -> Stand:
     mark, past = words.chalk.nearest(at.s)
-    own = {"clock": _clock(at.time, words), "mark": mark, "past_mark": past, "steps": words.chalk.steps(past)}
+    own = {"clock": words.clock.of_day(at.time), "mark": mark, "past_mark": past, "steps": words.chalk.steps(past)}
     return Stand.from_result(at, **own)
 
 
 def _meeting(one: facts.Meeting, words: CardWords) -> Meeting:
-    own = {"name": words.met_name(one), "clock": _clock(one.time, words)}
+    own = {"name": words.met_name(one), "clock": words.clock.of_day(one.time)}
     if one.dragon is None:
         return Meeting.from_result(one, **own)
     return DragonMeeting.from_result(one, dragon_name=words.dragons[one.dragon][0], **own)
@@ -260,7 +254,7 @@ def _values(card: Card, words: CardWords, kind: type[Cue]) -> dict[str, Any]:
     bench = card.bench
     cues = [
         kind.from_result(
-            cue, clock=_clock(cue.time, words), count=words.clock.count(cue.time) or None,
+            cue, clock=words.clock.of_day(cue.time), count=words.clock.count(cue.time) or None,
             angle=cue.turn and cue.turn.angle, nearest=cue.nearest and _meeting(cue.nearest, words),
             others=[one.bench for one in cue.meetings], words=words.sentence(card, cue),
         )

@@ -6,7 +6,7 @@ The same dance gives the same bytes on the same fonts and versions of the librar
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any, Literal
@@ -25,7 +25,7 @@ from core import Budget, Dance, Venue
 from core.language import joined, say
 from core.people.cards import Card, Cue
 from core.plots import BLUE, VERMILION
-from core.values import Floats
+from core.values import Floats, Progress
 
 # The blank between a number and its unit, at which no line may break.
 UNIT_BLANK = re.compile(r"(?<=\d) (?=[ms]\b|%)")
@@ -81,9 +81,7 @@ class CardSheets:
     map_up: MapUp
 
 
-def cards_pdf(
-    decks: Sequence[CardSheets], paper: PaperName, progress: Callable[[float], None] = lambda share: None
-) -> bytes:
+def cards_pdf(decks: Sequence[CardSheets], paper: PaperName, progress: Progress) -> bytes:
     """The bytes of the PDF. decks: of one dragon, or of each of several; raises: Halted once the budget is stopped"""
     first, template = decks[0], files("app.cards").joinpath("cards.typ").read_bytes()
     cards = [(sheets, card, _words_on(sheets, card)) for sheets in decks for card in sheets.cards]

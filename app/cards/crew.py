@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from app.cards.words import CardWords
-from app.wire.clocks import time_of_day
 from app.wire.texts import text_to_cell
 from core.language import joined, say
 from core.people.crew import Crew, Spell
@@ -34,11 +33,6 @@ class CrewWords:
         """Short names of all people: 17.2 is the second of bench 17 at the start, S3 the third spare."""
         own = [f"{bench}.{k}" for bench, count in enumerate(self.crew.needed) for k in range(1, count + 1)]
         return own + [say("S{k}", k=k) for k in range(1, self.crew.spares + 1)]
-
-    def clock(self, time: float) -> str | None:
-        """Time of day at a time [s], if it is known."""
-        start = self.words.clock.start_clock
-        return None if start is None else time_of_day(time, start)
 
     @property
     def longest(self) -> float:
@@ -79,13 +73,13 @@ def crew_csv(crew: CrewWords) -> bytes:
 
 
 def _lines(crew: CrewWords) -> Iterator[dict[str, object]]:
-    names, chalk = crew.words.names, crew.words.chalk
+    names, chalk, clock = crew.words.names, crew.words.chalk, crew.words.clock.of_day
     for one, (x, y) in zip(crew.crew.spells, crew.places, strict=True):
         mark, past = chalk.nearest(one.s)
         yield {
             "person": one.person, "label": crew.labels[one.person], "bench": one.bench,
             "name": text_to_cell(names[one.bench]) if names else "",
-            "begin": one.begin, "begin_clock": crew.clock(one.begin), "end": one.end, "end_clock": crew.clock(one.end),
+            "begin": one.begin, "begin_clock": clock(one.begin), "end": one.end, "end_clock": clock(one.end),
             "time": one.end - one.begin, "way": one.way,
             "relieves": "" if one.relieved is None else crew.labels[one.relieved],
             "x": x, "y": y, "mark": mark, "past_mark": past, "steps": chalk.steps(past),

@@ -7,7 +7,6 @@ import io
 from collections.abc import Iterator, Sequence
 
 from app.cards.words import CardWords
-from app.wire.clocks import time_of_day
 from app.wire.texts import text_to_cell
 from core.people.cards import Card, Cue
 
@@ -20,21 +19,15 @@ COUNT = "count"
 DRAGON_COLUMNS, OTHER_DRAGON = ("dragon", "dragon_name"), "other_dragon"
 
 
-def cards_csv(cards: Sequence[Card], words: CardWords) -> bytes:
-    """CSV with the columns of COLUMNS, with music also COUNT; an entry is empty where it does not apply."""
-    return _csv([*COLUMNS, COUNT] if words.clock.music else COLUMNS, [(cards, words)])
-
-
-def performance_cards_csv(decks: Sequence[tuple[Sequence[Card], CardWords]]) -> bytes:
-    """The same of several dragons, with DRAGON_COLUMNS before these columns and OTHER_DRAGON after COLUMNS.
+def cards_csv(decks: Sequence[tuple[Sequence[Card], CardWords]]) -> bytes:
+    """CSV with the columns of COLUMNS, of several dragons with DRAGON_COLUMNS before and OTHER_DRAGON after them; with
+    music also COUNT. An entry is empty where it does not apply.
 
     decks: the cards of each dragon, and what their words follow from
     """
-    columns = [*DRAGON_COLUMNS, *COLUMNS, OTHER_DRAGON]
-    return _csv([*columns, COUNT] if any(words.clock.music for _, words in decks) else columns, decks)
-
-
-def _csv(columns: Sequence[str], decks: Sequence[tuple[Sequence[Card], CardWords]]) -> bytes:
+    are_several, with_music = decks[0][1].dragon is not None, any(words.clock.music for _, words in decks)
+    columns = [*DRAGON_COLUMNS, *COLUMNS, OTHER_DRAGON] if are_several else [*COLUMNS]
+    columns += [COUNT] * with_music
     sink = io.StringIO(newline="")
     writer = csv.DictWriter(sink, columns, extrasaction="ignore", lineterminator="\n")
     writer.writeheader()
@@ -58,18 +51,14 @@ def _lines(card: Card, words: CardWords) -> Iterator[dict[str, object]]:
         own |= dict(zip(DRAGON_COLUMNS, (words.dragon, words.dragons[words.dragon][0]), strict=True))
     mark, past = words.chalk.nearest(stand.s)
     place = {"mark": mark, "past_mark": past, "steps": words.chalk.steps(past)}
-    at = {"time": stand.time, "x": stand.x, "y": stand.y} | _clock("clock", stand.time, words)
+    at = {"time": stand.time, "x": stand.x, "y": stand.y, "clock": words.clock.of_day(stand.time) or ""}
     yield own | {"number": 0, "kind": "stand", "words": words.at_mark(stand)} | at | place
     for number, cue in enumerate(card.cues, start=1):
         at = {"time": cue.time, "x": cue.x, "y": cue.y, "since": cue.since, "until": cue.until}
+        at["clock"] = words.clock.of_day(cue.time) or ""
         about = {"number": number, "kind": cue.kind.value, "words": words.sentence(card, cue)}
         about[COUNT] = words.clock.count(cue.time)
-        yield own | about | at | _clock("clock", cue.time, words) | _more(card, cue, words)
-
-
-def _clock(name: str, time: float, words: CardWords) -> dict[str, object]:
-    start = words.clock.start_clock
-    return {} if start is None else {name: time_of_day(time, start)}
+        yield own | about | at | _more(card, cue, words)
 
 
 def _more(card: Card, cue: Cue, words: CardWords) -> dict[str, object]:

@@ -5,7 +5,6 @@ The same crew gives the same bytes on the same fonts and versions of the librari
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.resources import files
 
@@ -17,6 +16,7 @@ from app.plan.tables import PAD, Json, PlanTable, tables_sheet
 from core import Budget
 from core.language import say
 from core.people.crew import Spell
+from core.values import Progress
 
 # Width of the column of labels, and of each of the three columns of numbers at the right [mm].
 LABEL, NUMBER = 11.0, 17.0
@@ -38,7 +38,7 @@ class CrewSheets:
     roll: PlanTable | None = None
 
 
-def crew_pdf(sheets: CrewSheets, progress: Callable[[float], None] = lambda share: None) -> bytes:
+def crew_pdf(sheets: CrewSheets, progress: Progress) -> bytes:
     """The bytes of the file. raises: Halted once the budget is stopped"""
     short, long = PAPERS[sheets.size]
     paper, title = Paper(long, short), Title(sheets.title, sheets.facts, "", True, False)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from fractions import Fraction
 from pathlib import Path
@@ -19,7 +19,7 @@ import orjson
 import typer
 from pydantic import Field
 from rich.console import Console
-from rich.progress import Progress
+from rich.progress import Progress as Bar
 
 import core
 from app.command.options import asks
@@ -38,6 +38,7 @@ from core.errors import ProofRefused
 from core.language import Phrases, say
 from core.quantities import Quantity, format_number
 from core.tolerance.curve import time_on_circle
+from core.values import Progress
 
 if TYPE_CHECKING:
     from core.proof import Proof
@@ -94,9 +95,9 @@ class StrayProofRequest(_Thorough, CircleQuery):
 
 
 @contextmanager
-def _working(what: str) -> Iterator[Callable[[float], None]]:
+def _working(what: str) -> Iterator[Progress]:
     """A progress bar on standard error; yields a function of the share done. A refusal or Ctrl-C ends the command."""
-    bar = Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty())
+    bar = Bar(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty())
     try:
         with bar:
             task = bar.add_task(what, total=1.0)
@@ -113,9 +114,7 @@ def _working(what: str) -> Iterator[Callable[[float], None]]:
     raise typer.Exit(code)
 
 
-def _terms(
-    request: CollisionProofRequest | PitchProofRequest | ClearRequest, progress: Callable[[float], None]
-) -> dict[str, Any]:
+def _terms(request: CollisionProofRequest | PitchProofRequest | ClearRequest, progress: Progress) -> dict[str, Any]:
     """Keyword arguments that these proofs share."""
     return {"margin": request.margin, "every_pair": request.every_pair, "progress": progress}
 

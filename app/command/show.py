@@ -14,7 +14,7 @@ from typing import Any
 from rich import box
 from rich.cells import cell_len
 from rich.console import Console
-from rich.progress import Progress
+from rich.progress import Progress as Bar
 from rich.table import Table as RichTable
 from rich.text import Text
 
@@ -24,6 +24,7 @@ from app.wire.answers import Columns
 from app.wire.fields import Answer
 from app.wire.labels import Heading, Part, TextTable
 from core.language import Language, named_language, say
+from core.values import Progress
 
 # Width that a table takes beside its entries: for each column, and at both sides together [characters].
 COLUMN_SPACE, TABLE_SPACE = 3, 1
@@ -46,7 +47,7 @@ def language_of_terminal() -> Language:
 
 
 @contextmanager
-def waiting(what: str) -> Iterator[Callable[[float], None]]:
+def waiting(what: str) -> Iterator[Progress]:
     """A progress bar on standard error after BAR_DELAY; yields a function that takes the share done.
 
     what: what is waited for
@@ -54,7 +55,7 @@ def waiting(what: str) -> Iterator[Callable[[float], None]]:
     if not sys.stderr.isatty():
         yield lambda share: interrupts.heed()
         return
-    bar = Progress(console=Console(stderr=True), transient=True)
+    bar = Bar(console=Console(stderr=True), transient=True)
     task = bar.add_task(what, total=None)
     timer = threading.Timer(BAR_DELAY, bar.start)
     timer.start()
@@ -76,7 +77,7 @@ def waiting(what: str) -> Iterator[Callable[[float], None]]:
 def steps() -> Iterator[Callable[[str, float], None]]:
     """Progress over several steps on standard error; without a terminal a line for each quarter of a step."""
     if sys.stderr.isatty():
-        with Progress(console=Console(stderr=True), transient=True) as bar:
+        with Bar(console=Console(stderr=True), transient=True) as bar:
             tasks: dict[str, Any] = {}
 
             def advance(what: str, share: float) -> None:

@@ -36,8 +36,8 @@ from app.wire.clocks import minutes_and_seconds, time_of_day
 from core import Budget, Dance, Dragon, Performance, Trajectory, Venue, bench_outlines, trajectory
 from core.language import say
 from core.plots import BLUE, VERMILION, draw_dance
-from core.questions import question_about
-from core.values import Floats, Pair
+from core.questions import drawn
+from core.values import Floats, Pair, Progress, unheard
 
 DPI = 100
 # Size of the type, as a share of the height of the picture.
@@ -88,55 +88,33 @@ MARKED_LEAST = 0.014
 FRONT_SHARE = 0.18
 
 
-@question_about("dance", Dance, "the film was not drawn")
 def film(
-    dance: Dance,
+    filmed: Dance | Performance,
     spec: FilmSpec,
     form: str,
     *,
     venue: Venue | None = None,
     title: str = "",
     budget: Budget | None = None,
-    progress: Callable[[float], None] = lambda share: None,
+    progress: Progress = unheard,
 ) -> bytes:
-    """The bytes of a film in one of FORMS.
+    """The bytes of a film in one of FORMS, of several dragons each in its own colour with its name beside.
 
     progress: called with the share of finished frames
     raises: OutsideRun; TooMuchWork where the budget is stopped; MissingPackage without a font for the language
     """
-    return _filmed(dance, spec, form, venue, title, budget or Budget(), progress)
+    budget, sink = budget or Budget(), io.BytesIO()
 
+    def draw() -> bytes:
+        tones, encode = (YUV, encoded_mp4) if form == MP4_TYPE else (COLOURS, encoded_gif)
+        stage = FilmPicture(filmed, spec, venue, title, tones, budget)
+        with encode(sink, spec) as take:
+            for k, frame in enumerate(frames(stage, spec, budget), start=1):
+                take(frame)
+                progress(k / spec.times.size)
+        return sink.getvalue()
 
-@question_about("performance", Performance, "the film was not drawn")
-def film_of_several(
-    performance: Performance,
-    spec: FilmSpec,
-    form: str,
-    *,
-    title: str = "",
-    budget: Budget | None = None,
-    progress: Callable[[float], None] = lambda share: None,
-) -> bytes:
-    """The same of several dragons in their venue, each in its own colour with its name beside."""
-    return _filmed(performance, spec, form, performance.venue, title, budget or Budget(), progress)
-
-
-def _filmed(
-    filmed: Dance | Performance,
-    spec: FilmSpec,
-    form: str,
-    venue: Venue | None,
-    title: str,
-    budget: Budget,
-    progress: Callable[[float], None],
-) -> bytes:
-    tones, encode = (YUV, encoded_mp4) if form == MP4_TYPE else (COLOURS, encoded_gif)
-    stage, sink = FilmPicture(filmed, spec, venue, title, tones, budget), io.BytesIO()
-    with encode(sink, spec) as take:
-        for k, frame in enumerate(frames(stage, spec, budget), start=1):
-            take(frame)
-            progress(k / spec.times.size)
-    return sink.getvalue()
+    return drawn(filmed, "the film was not drawn", draw)
 
 
 def frames(stage: FilmPicture, spec: FilmSpec, budget: Budget) -> Iterator[NDArray[np.uint8]]:

@@ -24,24 +24,25 @@ METRES, VERSION = 6, "R2000"
 
 
 class NamedGround(NamedTuple):
-    """The envelope of one of several dragons, and its name."""
+    """The envelope of a dance; of one of several dragons with its number and its name."""
 
-    name: str | None
     envelope: Envelope
+    number: int | None = None
+    name: str | None = None
 
 
-def envelope_geojson(envelope: Envelope) -> bytes:
-    """A GeoJSON feature: the polygons, with their proven bounds as properties."""
-    return orjson.dumps(_feature(envelope))
+def ground_geojson(grounds: Sequence[NamedGround]) -> bytes:
+    """A GeoJSON feature: the polygons, with their proven bounds as properties.
 
-
-def grounds_geojson(grounds: Sequence[NamedGround]) -> bytes:
-    """A collection with the feature of each dragon, which has its number, its name and the times of its own dance."""
-    features = [_feature(one.envelope, {"dragon": k, "dragon_name": one.name}) for k, one in enumerate(grounds)]
+    Of several dragons a collection with the feature of each, which has its number, its name and the times of its dance.
+    """
+    if grounds[0].number is None:
+        return orjson.dumps(_feature(grounds[0].envelope, {}))
+    features = [_feature(one.envelope, {"dragon": one.number, "dragon_name": one.name}) for one in grounds]
     return orjson.dumps({"type": "FeatureCollection", "features": features})
 
 
-def _feature(envelope: Envelope, own: dict[str, Any] | None = None) -> dict[str, Any]:
+def _feature(envelope: Envelope, own: dict[str, Any]) -> dict[str, Any]:
     known = {
         "name": "envelope",
         "excess": envelope.excess,
@@ -49,7 +50,7 @@ def _feature(envelope: Envelope, own: dict[str, Any] | None = None) -> dict[str,
         "start": envelope.start,
         "stop": envelope.stop,
     }
-    properties = known | {"certificate": envelope.certificate.method} | (own or {})
+    properties = known | {"certificate": envelope.certificate.method} | own
     return {"type": "Feature", "properties": properties, "geometry": geometry_of(envelope.polygons)}
 
 
@@ -71,23 +72,17 @@ def dxf_bytes(drawing: Any) -> bytes:
     return sink.getvalue().encode()
 
 
-def envelope_dxf(envelope: Envelope) -> bytes:
-    """A DXF drawing: each ring is a closed polyline, holes on a separate layer. raises: MissingPackage"""
-    return _drawing([(LAYERS, envelope)])
+def ground_dxf(grounds: Sequence[NamedGround]) -> bytes:
+    """A DXF drawing: each ring is a closed polyline, holes on a separate layer. raises: MissingPackage
 
-
-def grounds_dxf(grounds: Sequence[NamedGround]) -> bytes:
-    """A DXF drawing with two layers for each dragon, whose number they end in. raises: MissingPackage"""
-    layers = [[(f"{name}_{k}", colour) for name, colour in LAYERS] for k in range(len(grounds))]
-    return _drawing(list(zip(layers, [one.envelope for one in grounds], strict=True)))
-
-
-def _drawing(drawn: Sequence[tuple[Sequence[tuple[str, int]], Envelope]]) -> bytes:
-    """The file of envelopes, each on two layers, of outer rings and of holes."""
-    drawing = new_dxf(layer for layers, _ in drawn for layer in layers)
+    Of several dragons each has two layers, which end in its number.
+    """
+    ends = ["" if one.number is None else f"_{one.number}" for one in grounds]
+    drawing = new_dxf((f"{name}{end}", colour) for end in ends for name, colour in LAYERS)
     space = drawing.modelspace()
-    for layers, envelope in drawn:
-        for rings in envelope.polygons:
+    for end, one in zip(ends, grounds, strict=True):
+        for rings in one.envelope.polygons:
             for k, ring in enumerate(rings):
-                space.add_lwpolyline(ring[:-1].tolist(), close=True, dxfattribs={"layer": layers[k > 0][0]})
+                layer = {"layer": f"{LAYERS[k > 0][0]}{end}"}
+                space.add_lwpolyline(ring[:-1].tolist(), close=True, dxfattribs=layer)
     return dxf_bytes(drawing)

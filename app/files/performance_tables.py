@@ -10,9 +10,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.extras import require
 from app.files.tables import (
+    ARROW_TYPE,
+    CSV_TYPE,
     XLSX_DECIMALS,
+    XLSX_TYPE,
     arrow_bytes,
     columns_of,
     csv_head,
@@ -24,6 +26,7 @@ from app.files.tables import (
 )
 from app.files.workbooks import workbook
 from app.wire.answers import Columns
+from app.wire.question import JSON
 from core import Performance, Trajectory
 
 
@@ -71,7 +74,6 @@ def performance_csv(table: PerformanceTable) -> Iterator[bytes]:
 
 def performance_arrow(table: PerformanceTable) -> bytes:
     """Arrow IPC file with the columns of one dragon after that of its number. raises: MissingPackage without pyarrow"""
-    require("arrow", "format", "Arrow")
     parts = [columns_of(result, slice(None), table.decimals) for result in table.results]
     numbers = [np.full(len(part["time"]), k, dtype=np.int32) for k, part in enumerate(parts)]
     together = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
@@ -91,16 +93,10 @@ def performance_xlsx(table: PerformanceTable) -> bytes:
     return workbook(sheets, decimals)
 
 
-# Function that makes the bytes of a file, whole or in blocks, by its ending.
+# Function that makes the bytes of a file, whole or in blocks, by its media type.
 WRITERS: dict[str, Callable[[PerformanceTable], bytes | Iterator[bytes]]] = {
-    ".json": performance_json,
-    ".csv": performance_csv,
-    ".xlsx": performance_xlsx,
-    ".arrow": performance_arrow,
+    JSON: performance_json,
+    CSV_TYPE: performance_csv,
+    XLSX_TYPE: performance_xlsx,
+    ARROW_TYPE: performance_arrow,
 }
-
-
-def performance_file(ending: str, table: PerformanceTable) -> bytes:
-    """The bytes of a file with that ending, in one piece."""
-    data = WRITERS[ending](table)
-    return data if isinstance(data, bytes) else b"".join(data)

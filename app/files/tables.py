@@ -6,7 +6,7 @@ The same trajectory gives the same bytes, so an answer may carry a strong ETag.
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import orjson
@@ -16,13 +16,11 @@ from app.files.workbooks import Worksheet, workbook
 from app.wire.answers import Columns
 from app.wire.clocks import time_of_day
 from app.wire.texts import text_to_cell
-from core import InvalidValue, TooLarge, Trajectory
-from core.language import Listed, say, sense
+from core import TooLarge, Trajectory
+from core.language import say, sense
 from core.values import Floats
 
-# Endings that trajectory_writer() supports.
-TABLE_ENDINGS = (".csv", ".xlsx", ".arrow", ".json")
-# Optional part of the program that it needs for some of them.
+# Optional part of the program that a file with this ending needs.
 TABLE_EXTRAS = {".xlsx": "xlsx", ".arrow": "arrow"}
 COLUMNS = ("time", "handle", "x", "y", "speed")
 # Handles in the tables that the contest requires, beside the rear one of the tail.
@@ -106,17 +104,13 @@ def trajectory_json(result: Trajectory, decimals: int | None = None) -> bytes:
     return Columns({"time": result.time, "x": x, "y": y, "speed": result.speed}, decimals).to_json()
 
 
-def trajectory_csv(result: Trajectory, decimals: int | None = None, start_clock: str | None = None) -> bytes:
-    """CSV with the columns time [s], handle, x [m], y [m], speed [m/s], and name and clock if they are known.
+def csv_blocks(result: Trajectory, decimals: int | None = None, start_clock: str | None = None) -> Iterator[bytes]:
+    """CSV with the columns time [s], handle, x [m], y [m], speed [m/s], and name and clock if they are known; in blocks
+    of lines, each made on demand.
 
     decimals: of x, y and speed; None writes the shortest text that reads back as the same double
     start_clock: time of day at time 0, see time_of_day()
     """
-    return b"".join(csv_blocks(result, decimals, start_clock))
-
-
-def csv_blocks(result: Trajectory, decimals: int | None = None, start_clock: str | None = None) -> Iterator[bytes]:
-    """The same CSV in blocks of lines, each made on demand."""
     has_names = bool(result.dance and result.dance.dragon.names)
     yield csv_head(start_clock, has_names=has_names)
     yield from csv_lines(result, decimals, start_clock, own_names(result) if has_names else ())
@@ -220,20 +214,3 @@ def instant_sheet(result: Trajectory) -> Worksheet:
     columns = [say("x (m)"), say("y (m)"), say("speed (m/s)")]
     numbers = np.column_stack([result.position.reshape(handles, 2), result.speed.reshape(handles)])
     return Worksheet("Sheet1", columns, own_names(result), numbers)
-
-
-def trajectory_writer(
-    suffix: str, decimals: int | None, start_clock: str | None = None
-) -> Callable[[Trajectory], bytes]:
-    """Function that turns a trajectory into the bytes of a file with that suffix."""
-    match suffix:
-        case ".json":
-            return lambda result: trajectory_json(result, decimals=decimals)
-        case ".csv":
-            return lambda result: trajectory_csv(result, decimals, start_clock)
-        case ".arrow":
-            return lambda result: trajectory_arrow(result, decimals=decimals)
-        case ".xlsx":
-            return lambda result: trajectory_xlsx(result, decimals=decimals)
-    words, endings = "--output must end in {endings}", Listed(TABLE_ENDINGS)
-    raise InvalidValue.in_words("output", words, got=suffix or "no ending", endings=endings)

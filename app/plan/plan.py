@@ -5,7 +5,7 @@ The same dance gives the same bytes on the same fonts and versions of the librar
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 
@@ -19,7 +19,7 @@ from app.plan.paper import Paper, PaperName, Title
 from app.plan.tables import Json, PlanTable, tables_sheet
 from app.plan.timing import TimeFormat, points_of
 from core.language import say
-from core.values import Floats
+from core.values import Floats, Progress
 
 # Most corners of a square and of another thing that stand in a table, and most rows of it.
 SQUARE_CORNERS, THING_CORNERS, THINGS_MOST = 16, 6, 100
@@ -61,7 +61,7 @@ class Together:
 def plan_pdf(
     plans: Sequence[Plan],
     together: Together | None,
-    progress: Callable[[float], None] = lambda share: None,
+    progress: Progress,
 ) -> bytes:
     """The bytes of the plan of one dragon, or of several together and of each.
 

@@ -58,7 +58,7 @@ class Approach(Answer):
 class Ground(Answer):
     """Ground as polygons.
 
-    ground: geoJSON geometry in metres
+    ground: GeoJSON geometry in metres
     area: area of it [m2]
     excess: Proven: no point of it is further than this beyond what it has to hold [m]
     """

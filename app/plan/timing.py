@@ -50,10 +50,11 @@ class TimeFormat:
 
     def clock(self, time: float) -> str:
         """A time [s] without bar and beat."""
-        time += self.delay
-        if self.start_clock is not None:
-            return time_of_day(time, self.start_clock)
-        return minutes_and_seconds(time)
+        return self.of_day(time) or minutes_and_seconds(time + self.delay)
+
+    def of_day(self, time: float) -> str | None:
+        """The time of day at a time [s]; None if it is not known."""
+        return None if self.start_clock is None else time_of_day(time + self.delay, self.start_clock)
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, Self, TypeAlias
 from pydantic import Field
 
 import core
-from app.files.tables import TABLE_ENDINGS, TABLE_EXTRAS, trajectory_writer
-from app.questions import figures
+from app.files.tables import TABLE_EXTRAS
+from app.questions import figures, trajectory
 from app.questions.collision_time import CollisionTime, Contact
 from app.questions.encounter import Encounter
 from app.wire import evidence
@@ -291,17 +291,15 @@ def check(request: DanceCheck, terms: Terms) -> Report | PerformanceReport:
 
 def verdict_together(request: DanceCheck, performance: Performance, terms: Terms) -> core.PerformanceReport:
     """The verdict on several dances as an object of core. raises: InvalidValue"""
-    limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
     span: dict[str, Any] = {"start": request.start, "stop": request.stop, "details": request.details}
-    return core.check(performance, budget=terms.budget, **limits, **span)
+    return core.check(performance, budget=terms.budget, **request.to_limits(), **span)
 
 
 def verdict_of(
     request: DanceCheck, dance: Dance, venue: Venue | None, start: float | None, terms: Terms, *, details: bool = True
 ) -> core.Report:
     """The verdict as an object of core. start: of the time checked [s]; raises: InvalidValue"""
-    limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
-    question = core.check if details else core.quick_check
+    question, limits = core.check if details else core.quick_check, request.to_limits()
     return question(dance, venue=venue, start=start, stop=request.stop, budget=terms.budget, **limits)
 
 
@@ -317,25 +315,22 @@ def _with_files(request: CheckRequest, terms: Terms) -> tuple[Report | Performan
     answer = check(request, terms)
     return answer, {
         "figure": lambda form, time: _drawn(request, answer, terms, form, time),
-        "output": lambda ending: _table(request, answer, terms, ending),
+        "output": lambda form: _table(request, answer, terms, form),
     }
 
 
-def _table(request: CheckRequest, answer: Report | PerformanceReport, terms: Terms, ending: str) -> bytes:
-    """Positions and speeds at every second of the judged interval, within the run, as a file with that ending."""
-    from app.files.performance_tables import PerformanceTable, performance_file
-
-    cells_max = terms.settings.cells_max
+def _table(request: CheckRequest, answer: Report | PerformanceReport, terms: Terms, form: str) -> bytes:
+    """Positions and speeds at every second of the judged interval, within the run, as a file."""
+    settings, stop = terms.settings, answer.stop
+    dance: Dance | Performance
     if isinstance(answer, PerformanceReport):
-        performance = request.to_performance(terms.settings)
-        seconds = TimeRange(start=answer.start, stop=answer.stop).times_of(performance, cells_max)
-        results = core.trajectory(performance, seconds, budget=terms.budget)
-        return performance_file(ending, PerformanceTable(performance, results, clock=clock_of(request, performance)))
-    dance = request.to_dance(terms.settings.checked_benches_max)
-    stop = dance.end.time if request.stop is None else min(request.stop, dance.end.time)
-    seconds = TimeRange(start=answer.start, stop=stop).times_of(dance, cells_max)
-    write = trajectory_writer(ending, None, clock_of(request, dance))
-    return write(core.trajectory(dance, seconds, budget=terms.budget))
+        dance = request.to_performance(settings)
+    else:
+        dance = request.to_dance(settings.checked_benches_max)
+        stop = dance.end.time if request.stop is None else min(request.stop, dance.end.time)
+    seconds = TimeRange(start=answer.start, stop=stop).times_of(dance, settings.cells_max)
+    data = trajectory.written(request, dance, core.trajectory(dance, seconds, budget=terms.budget), form)
+    return data if isinstance(data, bytes) else b"".join(data)
 
 
 def _drawn(
@@ -501,7 +496,7 @@ QUESTION = Question(
             ),
             "output": Output(
                 "Write positions and speeds at every second to a .csv, .xlsx, .arrow or .json file.",
-                {ending: ending for ending in TABLE_ENDINGS},
+                {ending: form for form, ending in trajectory.ENDINGS.items()},
                 extras=TABLE_EXTRAS,
             ),
         },

@@ -33,11 +33,10 @@ from core.motion.places import handle_places
 from core.people import crew as facts
 from core.people.crew import ON_BENCH_MAX, PEOPLE_MAX, PLACES_MAX, SHIFT_MAX, Relief, places_near
 from core.quantities import Given, Parameter, Quantity
-from core.questions import question_about
+from core.questions import drawn
 from core.values import Point
 
 if TYPE_CHECKING:
-    from app.cards.timeline import CrewSheets
     from app.plan.tables import PlanTable
 
 # Estimated time of a bench, without and with a sheet of paper for its people [s], measured 2026-11-27.
@@ -259,8 +258,9 @@ def _name(bench: int, crew: CrewWords) -> str:
 
 
 def _spell(one: facts.Spell, place: Point, crew: CrewWords) -> CrewSpell:
+    clock = crew.words.clock.of_day
     own = {
-        "name": _name(one.bench, crew), "begin_clock": crew.clock(one.begin), "end_clock": crew.clock(one.end),
+        "name": _name(one.bench, crew), "begin_clock": clock(one.begin), "end_clock": clock(one.end),
         "relieves": None if one.relieved is None else crew.labels[one.relieved],
         "x": place[0], "y": place[1], "mark": crew.words.chalk.nearest(one.s)[0],
     }  # fmt: skip
@@ -372,12 +372,12 @@ def _roll(time: float, crew: CrewWords, dance: Dance, terms: Terms) -> Roll:
         for bench, people in enumerate(benches)
     ]  # fmt: skip
     resting = [label for person, label in enumerate(crew.labels) if person not in carrying]
-    return Roll(time=time, clock=crew.clock(time), benches=rows, resting=resting)
+    return Roll(time=time, clock=crew.words.clock.of_day(time), benches=rows, resting=resting)
 
 
 def _paper(request: CrewRequest, dance: Dance, crew: CrewWords, roll: Roll | None, terms: Terms) -> bytes:
-    """The crew as PDF."""
-    from app.cards.timeline import CrewSheets
+    """The crew as PDF. raises: TooMuchWork"""
+    from app.cards.timeline import CrewSheets, crew_pdf
     from app.files.typeset import face_for
 
     result, clock = crew.crew, crew.words.clock.words
@@ -386,15 +386,8 @@ def _paper(request: CrewRequest, dance: Dance, crew: CrewWords, roll: Roll | Non
     facts = [summary, say("from {start} to {stop}", start=clock(result.start), stop=clock(result.stop)), *lacks]
     face = face_for([title])
     table = None if roll is None else _roll_table(roll, crew)
-    return _drawn(dance, CrewSheets(crew, title, facts, face, terms.budget, request.paper, table), terms)
-
-
-@question_about("dance", Dance, "the timeline was not drawn")
-def _drawn(dance: Dance, sheets: CrewSheets, terms: Terms) -> bytes:
-    """The crew as PDF. raises: TooMuchWork"""
-    from app.cards.timeline import crew_pdf
-
-    return crew_pdf(sheets, terms.progress)
+    sheets = CrewSheets(crew, title, facts, face, terms.budget, request.paper, table)
+    return drawn(dance, "the timeline was not drawn", lambda: crew_pdf(sheets, terms.progress))
 
 
 def _roll_table(roll: Roll, crew: CrewWords) -> PlanTable:

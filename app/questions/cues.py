@@ -10,7 +10,7 @@ from pydantic import Field
 
 import core
 from app.cards.answer import Cues, PerformanceCues
-from app.cards.tables import cards_csv, performance_cards_csv
+from app.cards.tables import cards_csv
 from app.cards.words import CardWords, Chalk, landmarks_of
 from app.files.tables import CSV_TYPE
 from app.plan.timing import TimeFormat
@@ -23,18 +23,20 @@ from app.wire.performances import NumberOrName, SeveralFields, dragons_of
 from app.wire.question import JSON, Command, ListOption, Question, Terms
 from core import Dance, FailureKind, InvalidValue, Performance
 from core.errors import TooLarge
-from core.language import say
+from core.language import phrase, say
 from core.motion.places import handle_places
 from core.people.cards import Card, card_of
 from core.people.cues import FOLLOWED_MAX, REACH, REACH_MAX, bench_cues
 from core.quantities import Given, Parameter
-from core.questions import question_about
+from core.questions import drawn
 from core.values import Interval, Point
 
 # Longest address whose code fits on a card [characters].
 ADDRESS_MOST = 600
 # Estimated time of the cues of a bench and of its card on paper [s], measured 2026-11-29.
 SECONDS_PER_BENCH, SECONDS_PER_CARD = 0.02, 0.01
+
+NOT_DRAWN = phrase("the cards were not drawn")
 
 
 class DanceCues(GatedDance, strict=True):
@@ -120,7 +122,7 @@ def cues(request: CuesRequest, terms: Terms, form: str = JSON) -> Cues | Perform
     if form == JSON:
         return Cues.of(cards, words)
     if form == CSV_TYPE:
-        return cards_csv(cards, words)
+        return cards_csv([(cards, words)])
     verdict = _verdict(request, dance, place, words, terms)
     return _cards(dance, request, place, [((dance, ""), (cards, words))], verdict, terms)
 
@@ -152,8 +154,8 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
     if form == JSON:
         return PerformanceCues.together(decks)
     if form == CSV_TYPE:
-        return performance_cards_csv(decks)
-    limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
+        return cards_csv(decks)
+    limits = request.to_limits()
     report = core.quick_check(performance, start=start, stop=request.stop, budget=terms.budget, **limits)
     in_words = TimeFormat(start_clock).words
     verdict = _failed(request, report, in_words) if report.failures else _passed(request, place), not report.failures
@@ -258,7 +260,7 @@ def _cards(
         )
         for (own, name), (cards, words) in decks
     ]
-    return _drawn(dance, lambda: cards_pdf(sheets, request.paper, terms.progress))
+    return drawn(dance, NOT_DRAWN, lambda: cards_pdf(sheets, request.paper, terms.progress))
 
 
 def _labels(
@@ -279,22 +281,8 @@ def _labels(
         LabelDeck(say("{name}: {text}", name=title, text=name) if name else title, benches, dragon.names, number)
         for name, benches, dragon, number in decks
     ]
-    return _drawn(dance, lambda: labels_pdf(title, request.address, labels, request.paper, face, terms.budget))
-
-
-def _drawn(dance: Dance | Performance, draw: Callable[[], bytes]) -> bytes:
-    """What is drawn of a dance, or of several, as PDF. raises: TooMuchWork"""
-    return _drawn_together(dance, draw) if isinstance(dance, Performance) else _drawn_alone(dance, draw)
-
-
-@question_about("dance", Dance, "the cards were not drawn")
-def _drawn_alone(dance: Dance, draw: Callable[[], bytes]) -> bytes:
-    return draw()
-
-
-@question_about("performance", Performance, "the cards were not drawn")
-def _drawn_together(performance: Performance, draw: Callable[[], bytes]) -> bytes:
-    return draw()
+    pages = title, request.address, labels, request.paper, face, terms.budget
+    return drawn(dance, NOT_DRAWN, lambda: labels_pdf(*pages))
 
 
 def _cost(request: CuesRequest, form: str = JSON) -> float:

@@ -10,7 +10,7 @@ from pydantic import Field
 
 import core
 from app.files import outlines
-from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
+from app.files.outlines import DXF_TYPE, GEOJSON_TYPE, NamedGround
 from app.wire.answers import MultiPolygon, Polygon
 from app.wire.dances import DanceFields, SpanFields
 from app.wire.fields import Answer, Instant, measure
@@ -60,7 +60,7 @@ class SweepProof(Answer, of=core.SweepProof, leave=()):
 class Envelope(Answer, of=core.Envelope):
     """The ground that benches sweep.
 
-    envelope: geoJSON geometry in metres that holds every pose of every bench, holes kept
+    envelope: GeoJSON geometry in metres that holds every pose of every bench, holes kept
     distance: least distance of the spectators' line from it, 0 where they meet: no bench comes nearer; null without
         them [m]
     """
@@ -121,12 +121,10 @@ class PerformanceEnvelope(Answer):
         return cls(dances=grounds, distance=min(distances, default=None), start=start, stop=stop)
 
 
-# Forms of an envelope besides JSON: media type -> functions of the envelope, and of those of several dragons.
-FORMS: dict[str, tuple[Callable[[core.Envelope], bytes], Callable[[Sequence[outlines.NamedGround]], bytes]]] = {
-    GEOJSON_TYPE: (outlines.envelope_geojson, outlines.grounds_geojson)
-}
+# Forms of an envelope besides JSON: media type -> function of the grounds of all dragons.
+FORMS = {GEOJSON_TYPE: outlines.ground_geojson}
 if find_spec("ezdxf"):
-    FORMS[DXF_TYPE] = (outlines.envelope_dxf, outlines.grounds_dxf)
+    FORMS[DXF_TYPE] = outlines.ground_dxf
 
 
 def envelope(request: EnvelopeRequest, terms: Terms, form: str = JSON) -> Envelope | PerformanceEnvelope | bytes:
@@ -142,12 +140,12 @@ def _with_file(
     span: dict[str, Any] = {"start": request.start, "stop": request.stop, "budget": terms.budget}
     if request.dances is None:
         result = core.envelope(request.to_dance(terms.settings.checked_benches_max), **span)
-        return Envelope.of(result, request), {"output": lambda form: FORMS[form][0](result)}
+        return Envelope.of(result, request), {"output": lambda form: FORMS[form]([NamedGround(result)])}
     performance = request.to_performance(terms.settings)
     results = core.envelope(performance, **span)
-    grounds = [outlines.NamedGround(part.name, one) for part, one in zip(performance.parts, results, strict=True)]
+    grounds = [NamedGround(one, k, performance.parts[k].name) for k, one in enumerate(results)]
     answer = PerformanceEnvelope.together(results, request, performance)
-    return answer, {"output": lambda form: FORMS[form][1](grounds)}
+    return answer, {"output": lambda form: FORMS[form](grounds)}
 
 
 def _cost(request: EnvelopeRequest, form: str = JSON) -> float:

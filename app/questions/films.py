@@ -107,8 +107,8 @@ def _of_several(request: FilmRequest, terms: Terms, form: str) -> bytes:
     look: dict[str, Any] = {"touching": benches, "dragons": dragons, "colours": colours, "marked": marked}
     music = shared_music(request.dances or [])
     spec = FilmSpec(start, stop, request.seconds, rate, height, clock, **look, **music)
-    more: dict[str, Any] = {"budget": terms.budget, "progress": terms.progress}
-    return film.film_of_several(performance, spec, form, title=request.title, **more)
+    more: dict[str, Any] = {"title": request.title, "budget": terms.budget, "progress": terms.progress}
+    return film.film(performance, spec, form, venue=performance.venue, **more)
 
 
 def _marked(words: Sequence[int | str] | None, dragons: dict[int, Dragon]) -> tuple[Pair, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Self
 
 from pydantic import Field
 
@@ -26,14 +26,14 @@ from core.language import Language, counted, phrase, say
 from core.motion.places import handle_places
 from core.people.crew import places_near
 from core.quantities import Given, Quantity, format_number
-from core.questions import question_about
+from core.questions import drawn
 from core.shapes.engines import widened
 from core.values import Interval
 
 if TYPE_CHECKING:
     from app.files.typeset import Face
     from app.plan.paper import Title
-    from app.plan.plan import Plan, Together
+    from app.plan.plan import Plan
     from app.plan.timing import TimeFormat, Timing
 
 PDF_TYPE = "application/pdf"
@@ -117,6 +117,7 @@ class PlanRequest(SeveralFields, DancePlan):
 
 def plan(request: PlanRequest, terms: Terms) -> bytes:
     """The dance on paper as PDF: a map true to scale, the place of each bench, the points to paint and the times."""
+    from app.plan.plan import plan_pdf
     from app.plan.timing import TimeFormat
 
     if request.dances is not None:
@@ -132,13 +133,14 @@ def plan(request: PlanRequest, terms: Terms) -> bytes:
     verdict = verdict_words(report, clock.words), report.verdict is Judgement.PASSES
     common = _Common(request, place, verdict, _face(request, place, [dance.dragon], []), terms.budget)
     times = say("times: minutes:seconds, from time 0 of the dance")
-    return _drawn(dance, [common.plan_of(dance, timing, swept, clock, times)], terms)
+    plans = [common.plan_of(dance, timing, swept, clock, times)]
+    return drawn(dance, "the plan was not drawn", lambda: plan_pdf(plans, None, terms.progress))
 
 
 def _of_several(request: PlanRequest, terms: Terms) -> bytes:
     """The plan of several dragons: all of them on one map, then the sheets of each."""
     from app.files.looks import colour_of
-    from app.plan.plan import Together
+    from app.plan.plan import Together, plan_pdf
     from app.plan.timing import TimeFormat
 
     parts = request.dances or []
@@ -153,8 +155,7 @@ def _of_several(request: PlanRequest, terms: Terms) -> bytes:
     passes = passes_of_gates(request, dances, spans, budget)
     timings = [timing_of_marks(request, *one, terms) for one in zip(dances, spans, passes, strict=True)]
     grounds = core.envelope(performance, start=start, stop=stop, excess=EXCESS, budget=budget)
-    limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
-    report = core.quick_check(performance, start=start, stop=stop, budget=budget, **limits)
+    report = core.quick_check(performance, start=start, stop=stop, budget=budget, **request.to_limits())
     verdict = verdict_words(report, clock.words), report.verdict is Judgement.PASSES
     names = [part.name or say("dragon {k}", k=k) for k, part in enumerate(performance.parts)]
     common = _Common(request, place, verdict, _face(request, place, [one.dragon for one in dances], names), budget)
@@ -173,7 +174,7 @@ def _of_several(request: PlanRequest, terms: Terms) -> bytes:
     ]
     moments = [start, 0.5 * (start + stop), stop]
     together = Together(performance, moments, names, clock, common.title_of(facts))
-    return _drawn_together(performance, plans, together, terms)
+    return drawn(performance, "the plan was not drawn", lambda: plan_pdf(plans, together, terms.progress))
 
 
 def timing_of_marks(
@@ -271,22 +272,6 @@ def passes_of_gates(
             rule = "must be within {within} of the path that the dragon walks"
             raise InvalidValue(f"gates.{k}", rule, got=Given(gate.name), within=Quantity(gate.within, "m"))
     return [sorted(own, key=lambda one: one[1]) for own in passes]
-
-
-@question_about("dance", Dance, "the plan was not drawn")
-def _drawn(dance: Dance, plans: list[Plan], terms: Terms) -> bytes:
-    """The bytes of the plan of a dance. raises: TooMuchWork"""
-    from app.plan.plan import plan_pdf
-
-    return plan_pdf(plans, None, terms.progress)
-
-
-@question_about("performance", core.Performance, "the plan was not drawn")
-def _drawn_together(performance: core.Performance, plans: list[Plan], together: Together, terms: Terms) -> bytes:
-    """The bytes of the plan of several dances. raises: TooMuchWork"""
-    from app.plan.plan import plan_pdf
-
-    return plan_pdf(plans, together, terms.progress)
 
 
 def _from_to(start: str, stop: str) -> str:

@@ -60,15 +60,14 @@ from core.language import joined, say
 from core.motion.places import Passing
 from core.motion.trajectory import trajectory
 from core.quantities import Parameter, format_bound
-from core.questions import question_about
+from core.questions import drawn
 from core.shapes.engines import Polygons, area_of, free_width, holds_all, inside, merged, widened
 from core.shapes.reach import gains
 from core.shapes.rectangles import bench_poses
 from core.values import Pair
 
 if TYPE_CHECKING:
-    from app.files.typeset import Face
-    from app.plan.ground import GroundMap, SafetyLayers
+    from app.plan.ground import SafetyLayers
     from app.plan.safety import SafetyWords
 
 # Most lanes of a sheet, and approaches that it lists.
@@ -250,6 +249,7 @@ class _Judged:
         from app.files.looks import colour_of
         from app.files.typeset import face_for
         from app.plan.ground import GroundMap
+        from app.plan.safety import safety_pdf
         from core.plots import BLUE
 
         request, performance, venue = self.request, self.performance, self.place.venue
@@ -277,7 +277,8 @@ class _Judged:
         benches = [name for part in performance.parts for name in part.dance.dragon.names]
         names = [*areas, *(name for name, *_ in gates), *(name for name, _ in layers.lanes), *benches, *layers.dragons]
         face = face_for([words.title, request.stopper, *names])
-        return _drawn(performance, words, (grounds, layers), face, terms)
+        sheet = words, grounds, layers, face, terms.budget
+        return drawn(performance, "the safety sheet was not drawn", lambda: safety_pdf(*sheet))
 
     def _layers(self, answer: SafetySheet) -> SafetyLayers:
         """What the map of the sheet shows besides the ground."""
@@ -486,20 +487,6 @@ class _Judged:
 def _table(heading: str, columns: list[str], rows: list[list[str]], widths: list[float]) -> dict[str, Any]:
     """A table of the sheet, whose first two columns begin at the left."""
     return {"heading": heading, "columns": columns, "rows": rows, "widths": widths, "left": [0, 1]}
-
-
-@question_about("performance", Performance, "the safety sheet was not drawn")
-def _drawn(
-    performance: Performance,
-    words: SafetyWords,
-    map: tuple[list[GroundMap], SafetyLayers],
-    face: Face,
-    terms: Terms,
-) -> bytes:
-    """The bytes of the sheet. raises: TooMuchWork"""
-    from app.plan.safety import safety_pdf
-
-    return safety_pdf(words, *map, face, terms.budget)
 
 
 def _refuse_more_than(loose: int | None, dragons: Sequence[core.Dragon]) -> None:

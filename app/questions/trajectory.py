@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from importlib.util import find_spec
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field
 
@@ -12,7 +12,7 @@ import core
 from app.files import tables
 from app.files.performance_tables import WRITERS, PerformanceTable
 from app.settings import Settings
-from app.wire.dances import TimedDance, TimeRange, clock_of, handles_of
+from app.wire.dances import DanceFields, TimedDance, TimeRange, clock_of, handles_of
 from app.wire.fields import AS_WHOLE, Answer, measure
 from app.wire.options import PathOptions
 from app.wire.performances import SeveralDances
@@ -101,17 +101,24 @@ ENDINGS = {tables.CSV_TYPE: ".csv", tables.XLSX_TYPE: ".xlsx", tables.ARROW_TYPE
 def trajectory(request: DanceTrajectory, terms: Terms, form: str = JSON) -> bytes | Iterator[bytes]:
     """Position and speed of every handle at every instant."""
     cells_max = terms.settings.workbook_cells_max if form == tables.XLSX_TYPE else terms.settings.cells_max
+    dance: core.Dance | core.Performance
     if isinstance(request, TrajectoryRequest) and request.dances is not None:
-        performance = request.to_performance(terms.settings)
-        times = request.times_of(performance, cells_max)
-        results = core.trajectory(performance, times, budget=terms.budget)
-        clock = clock_of(request, performance)
-        return WRITERS[ENDINGS[form]](PerformanceTable(performance, results, request.decimals, clock))
-    dance = request.to_dance(terms.settings.benches_max)
-    result = core.trajectory(dance, request.times_of(dance, cells_max), budget=terms.budget)
+        dance = request.to_performance(terms.settings)
+    else:
+        dance = request.to_dance(terms.settings.benches_max)
+    results = core.trajectory(dance, request.times_of(dance, cells_max), budget=terms.budget)
+    return written(request, dance, results, form, request.decimals)
+
+
+def written(
+    request: DanceFields, dance: core.Dance | core.Performance, results: Any, form: str, decimals: int | None = None
+) -> bytes | Iterator[bytes]:
+    """The trajectory of a dance, or those of several, as a file, whole or in blocks. request: with its clock"""
+    if isinstance(dance, core.Performance):
+        return WRITERS[form](PerformanceTable(dance, results, decimals, clock_of(request, dance)))
     if form == tables.CSV_TYPE:
-        return tables.csv_blocks(result, request.decimals, clock_of(request, dance))
-    return FORMS[form](result, request.decimals)
+        return tables.csv_blocks(results, decimals, clock_of(request, dance))
+    return FORMS[form](results, decimals)
 
 
 def _cost(request: DanceTrajectory, form: str = JSON) -> float:

@@ -398,6 +398,11 @@ class Strays(Wire):
             raise wider_pin("pin", "hole", self)
         return Stray(self.stray, self.hole, self.pin).total if self.has_stray else 0.0
 
+    def to_limits(self) -> dict[str, Any]:
+        """Arguments of core: the stray in all, and the margin and the limit of speed of a request that has them."""
+        limits = {name: getattr(self, name) for name in ("margin", "speed_limit") if name in type(self).model_fields}
+        return limits | {"stray": self.to_stray()}
+
 
 class HeadSpeed(Wire):
     """Speed of the head."""

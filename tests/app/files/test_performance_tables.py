@@ -9,7 +9,7 @@ import openpyxl
 import pyarrow as pa
 import pytest
 
-from app.files.performance_tables import PerformanceTable, performance_file
+from app.files.performance_tables import PerformanceTable, performance_xlsx
 from app.files.tables import ARROW_TYPE, CSV_TYPE, XLSX_TYPE
 from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
@@ -78,7 +78,7 @@ def test_a_workbook_has_two_sheets_for_each_dragon_and_refuses_too_many_columns(
     performance = TrajectoryRequest.model_validate(TWO).to_performance(Settings())
     table = PerformanceTable(performance, trajectory(performance, TIMES))
     with speaking("zh"):
-        assert "位置 0" in openpyxl.load_workbook(io.BytesIO(performance_file(".xlsx", table))).sheetnames
+        assert "位置 0" in openpyxl.load_workbook(io.BytesIO(performance_xlsx(table))).sheetnames
     many = trajectory(performance, np.linspace(15.0, 20.0, 20_000))
     with pytest.raises(TooLarge, match="xlsx holds at most"):
-        performance_file(".xlsx", PerformanceTable(performance, many))
+        performance_xlsx(PerformanceTable(performance, many))
