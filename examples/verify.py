@@ -190,12 +190,16 @@ and of its distances at both ends.
 
 13. The turn
 ------------
-Two arcs lead from the coil inwards, at entry_radius R with polar angle theta, to its copy rotated by half a turn,
-tangent to both. With T the direction of travel at the entry E, n to the right of it and tan gamma = 1 / theta, E.T =
--R sin gamma and E.n = -R cos gamma. The arcs have their centres at E + r1 n and -E - r2 n and touch if these are
-S = r1 + r2 apart: |2 E + S n| = S, so S = R sqrt(1 + theta^2) / theta, r1 = S ratio / (1 + ratio). From one centre to
-the other goes R / cos gamma (sin 2 gamma T + cos 2 gamma n), from the first one to E goes -n: both arcs turn by pi -
-2 gamma.
+Two arcs of radii r1 = ratio r2 and r2 lead from the coil inwards, at entry_radius with polar angle theta, to its copy
+rotated by half a turn, at exit_radius (if there is none, at entry_radius), tangent to both and to one another. As
+complex numbers, P(theta) = b theta exp(i theta) is a point of the coil and n = i exp(i theta) (1 + i theta) / sqrt(1 +
+theta^2) the unit vector to the right of the direction of travel. With E, n1 of the entry and X, n2 of the coil at
+exit_radius, the centres are E + r1 n1 and -X - r2 n2, and r1 + r2 apart: with A = E + X and B = ratio n1 + n2
+    |A + r2 B| = (1 + ratio) r2,   so   r2 = |A|^2 / (sqrt(h^2 + ((1 + ratio)^2 - |B|^2) |A|^2) - h),   h = Re(A B*),
+B* the conjugate of B.
+With w the direction from the first centre to the second one, the first arc turns clockwise from -n1 to w, by the
+argument of -n1 / w between 0 and a whole turn, the second one by that of -n2 / w, for it turns from -w to n2. The angle
+of z is pi more than that of -z, which is 2 atan(y / (|z| + x)) for -z = x + i y.
 
 14. Strays
 ----------
@@ -710,7 +714,8 @@ class Coil(Piece):
     def __init__(self, growth, first, last):
         super().__init__(ZERO)
         self.growth, self.first, self.last, self.inwards = growth, first, last, first > ZERO
-        self.length = self.arc(first) - self.arc(last)
+        self.begun = self.arc(first)
+        self.length = self.begun - self.arc(last)
 
     def theta(self, t):
         if not (t > ZERO if self.inwards else t < ZERO):
@@ -728,7 +733,7 @@ class Coil(Piece):
         return HALF * self.growth * (t * slant + log(t + slant))
 
     def param(self, z):
-        left = z - self.high + self.arc(self.first)
+        left = z - self.high + self.begun
         size = left if self.inwards else ZERO - left
         if not size > ZERO:
             raise Loose("not proven: a handle is not shown to be short of the centre of a coil")
@@ -740,7 +745,7 @@ class Coil(Piece):
         return t if self.inwards else ZERO - t
 
     def place(self, t):
-        return self.high + self.arc(t) - self.arc(self.first)
+        return self.high + self.arc(t) - self.begun
 
     def point(self, t):
         theta = self.theta(t)
@@ -1554,7 +1559,7 @@ def danced(runs, claim):
         if not from_start:
             stand(chain)
         return chain, lambda time: chain.theta_after(exactly(time) * speed)
-    chain = RouteChain(runs, turn_path(path) if path["kind"] == "turn" else route_path(path), margin)
+    chain = RouteChain(runs, route_path(path) if path["kind"] == "route" else turn_path(path), margin)
     follow(chain, ZERO - exactly(claim["start"]) * speed, ZERO - exactly(last) * speed)
     return chain, lambda time: ZERO - exactly(time) * speed
 
@@ -1578,25 +1583,38 @@ def follow(chain, start, stop):
 
 def turn_path(path):
     """Two tangent arcs between two coils, by 13."""
-    if (
-        path["entry_radius"] > path["turning_radius"]
-        or not path["start_turns"] * path["pitch"] > path["turning_radius"]
-    ):
-        raise Refused(f"{MALFORMED}: the turn must be entered within its circle, from outside of it")
-    growth, radius = exactly(path["pitch"]) / (TWO * PI), exactly(path["entry_radius"])
-    theta, start, ratio = radius / growth, TWO * PI * exactly(path["start_turns"]), exactly(path["ratio"])
-    if not theta < start:
+    radii = [path["entry_radius"], path.get("exit_radius", path["entry_radius"])]
+    if max(radii) > path["turning_radius"] or not path["start_turns"] * path["pitch"] > path["turning_radius"]:
+        raise Refused(f"{MALFORMED}: the turn must be entered and left within its circle, from outside of it")
+    growth, ratio = exactly(path["pitch"]) / (TWO * PI), exactly(path["ratio"])
+    start, (inner, outer) = TWO * PI * exactly(path["start_turns"]), (exactly(radius) / growth for radius in radii)
+    if not (inner < start and outer < start):
         raise Refused(f"{MALFORMED}: the coil does not begin outside the turn")
-    total = radius * sqrt(ONE + theta * theta) / theta
+    (entry, n1), (opposite, n2) = ((pointing(t) * (growth * t), normal_of(t)) for t in (inner, outer))
+    apart, both, sum_of = entry + opposite, n1 * ratio + n2, ONE + ratio
+    level, squared = (apart * both.back()).x, abs(apart) * abs(apart)
+    curved = sum_of * sum_of - abs(both) * abs(both)
+    second = squared / (sqrt(level * level + curved * squared) - level)
+    first, along = second * ratio, (apart + both * second) * (ONE / (second * sum_of))  # -w
+    angles = [clockwise(normal * along.back()) for normal in (n1, n2)]
     low, high = (exactly(size) for size in SIZES)
-    angle, first = PI - TWO * atan(ONE / theta), total * ratio / (ONE + ratio)
-    second = total / (ONE + ratio)
-    if any(r < low or r > high or r * angle < SHORTEST for r in (first, second)):
+    if any(r < low or r > high or r * angle < SHORTEST for r, angle in zip((first, second), angles, strict=True)):
         raise Refused(f"{MALFORMED}: an arc of the turn is too small or too large")
-    pieces = [Coil(growth, start, theta), Piece(first * angle, first, -1), Piece(second * angle, second, 1)]
+    arcs = [Piece(r * angle, r, sign) for r, angle, sign in zip((first, second), angles, (-1, 1), strict=True)]
+    pieces = [Coil(growth, start, inner), *arcs, Coil(growth, ZERO - outer, ZERO - start)]
     if pieces[0].length > exactly(10**9):
         raise Refused(f"{MALFORMED}: the coil of the turn must be at most 1e9 m long")
-    return Path([*pieces, Coil(growth, ZERO - theta, ZERO - start)], 1, ZERO, Complex(ZERO), Complex(ONE))
+    return Path(pieces, 1, ZERO, Complex(ZERO), Complex(ONE))
+
+
+def normal_of(theta):
+    """n of 13."""
+    return (pointing(theta) * Complex(ONE, theta)).left() * (ONE / sqrt(ONE + theta * theta))
+
+
+def clockwise(z):
+    """The argument of z from 0 to a whole turn, by 13."""
+    return PI + TWO * atan((ZERO - z.y) / (abs(z) - z.x))
 
 
 def route_path(path):
@@ -1642,8 +1660,9 @@ def moving(claim):
 
 
 def described(path):
-    if path.get("kind") == "turn":
-        entered = f"which it enters {path['entry_radius']!r} m from the centre at 0 s"
+    if path.get("kind") in ("turn", "free_turn"):
+        leaves = f" and leaves {path['exit_radius']!r} m from it" if "exit_radius" in path else ""
+        entered = f"which it enters {path['entry_radius']!r} m from the centre at 0 s{leaves}"
         coils = f"spirals of pitch {path['pitch']!r} m and {path['start_turns']!r} turns"
         return f"on the turn of ratio {path['ratio']!r}, {entered}, between {coils}"
     if path.get("kind") == "route":
@@ -1688,7 +1707,7 @@ PIECES = {"line": {"start": POINT, "end": POINT}}
 PIECES |= {"arc": {"centre": POINT, "radius": float, "start_angle": float, "sweep": float}}
 PIECES |= {"coil": {"pitch": float, "start_turns": float, "end_turns": float, "centre": POINT, "rotation": float}}
 PATHS = {"spiral": SPIRAL, "turn": SPIRAL | {"turning_radius": float, "ratio": float, "entry_radius": float}}
-PATHS |= {"route": {"start": float, "pieces": [dict]}}
+PATHS |= {"free_turn": PATHS["turn"] | {"exit_radius": float}, "route": {"start": float, "pieces": [dict]}}
 DANCE = {"path": dict, "head_speed": float, "start": float}
 CLAIMS = {
     "collision-time": (collision_time, SPIRAL | {"head_speed": float, "time": float}),
@@ -1709,7 +1728,7 @@ RANGES |= {
     "radius": (1e-3, 1e4),
     "stray": (5e-324, 1e4),
 }
-RANGES |= {"shown": (5e-324, 1e15), "ratio": (0.01, 100.0), "entry_radius": (1e-3, 1e4)}
+RANGES |= {"shown": (5e-324, 1e15), "ratio": (0.01, 100.0), "entry_radius": (1e-3, 1e4), "exit_radius": (1e-3, 1e4)}
 
 
 def check_form(value, form, place):

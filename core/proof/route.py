@@ -82,13 +82,13 @@ class Piece:
         """The largest |curvature| [1/m]."""
         return abs(self.curvature)
 
-    def behind(self, t: arb, chord: arb) -> arb | None:
+    def behind(self, t: arb, chord: arb) -> arb:
         """The parameter of the first point behind that is a chord away, if the piece is long and wide enough."""
         half = abs(self.curvature) * chord / 2
         if self.curvature == 0:
             return t + chord
         if not half < 1:
-            return None
+            raise Unproven("an arc is not shown to be wide enough for a bench")
         return t + 2 * half.asin() / abs(self.curvature)
 
 
@@ -149,7 +149,7 @@ class BallCoil(Piece):
     def sharpest(self) -> arb:
         return self._bend(abs(self.first)).max(self._bend(abs(self.last)))
 
-    def behind(self, t: arb, chord: arb) -> arb | None:
+    def behind(self, t: arb, chord: arb) -> arb:
         return t + delta(t, (chord / self.growth) ** 2)
 
 
@@ -236,10 +236,12 @@ class BallPath:
     def behind(self, front: tuple[Piece, arb], chord: arb) -> tuple[Piece, arb]:
         """The first place behind that is a chord away (8., 18.), as piece and parameter."""
         piece, t = front
-        within = piece.behind(t, chord)
-        if within is not None and self.holds(piece, piece.place(within)):
-            rear = piece, within
-        else:
+        try:
+            rear = piece, piece.behind(t, chord)
+            stays = self.holds(piece, piece.place(rear[1]))
+        except Unproven:  # a coil is left before its centre, or an arc is narrower than a chord
+            stays = False
+        if not stays:
             rear = self._on_earlier(front, chord)
         length = rear[0].place(rear[1]) - piece.place(t)
         if self.gentle(front, rear, chord):

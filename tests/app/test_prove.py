@@ -1,9 +1,11 @@
 """bench-dragon prove, run as a user runs it: certificates as files, exit codes."""
 
 import json
+import math
 
 import pytest
 
+from tests.campaigns.differential import proven_by_second
 from tests.support import command
 from tests.support.command import said
 from tests.support.refusal_rows import assert_refused_in_one_line
@@ -111,6 +113,25 @@ def test_a_dance_from_a_file_is_proven_to_its_end(tmp_path):
     assert "not part of the proof" not in run("dance", str(file)).stderr
     file.write_text(f"speed_limit = 2.0\n{LINES.format(sweep=3.0)}")
     assert "The speed limit is not part of the proof.\n" in run("dance", str(file)).stderr
+
+
+# Legs that turn by 40 degrees at a corner, and by 107 degrees with a radius of 1.0 m.
+BENT = """
+dragon = {{benches = 6}}
+path = {{kind = "waypoints", points = [[0, 0], [20, 0], [{x}, {y}]], straight = [0, 1], radius = {radius}}}
+"""
+
+
+@pytest.mark.parametrize("radius, turn", [(0.0, 40.0), (1.0, 107.0)])
+def test_a_dance_around_a_bend_is_proven_and_the_second_verifier_agrees(radius, turn, tmp_path):
+    file = tmp_path / "dance.toml"
+    x, y = 20.0 + 15.0 * math.cos(math.radians(turn)), 15.0 * math.sin(math.radians(turn))
+    file.write_text(BENT.format(x=x, y=y, radius=radius))
+    words = "where every rear handle goes forwards, less than 87.44 degrees off its bench, and never jumps: no two"
+    assert_proven(("dance", str(file)), words, tmp_path)
+    proven, statement = proven_by_second(json.loads((tmp_path / "claim.json").read_text()))
+    assert proven
+    assert words in statement
 
 
 @pytest.mark.parametrize(

@@ -76,6 +76,8 @@ def _strayed(with_exhibit):
     return prove_tolerance(dance, stray, exhibit=result.exhibit if with_exhibit else None, start=44.0, stop=44.9)
 
 
+# The shortest turn known that benches follow (docs/contest.md), with a free exit.
+SHORT = Turn(1.7, ratio=0.66439183, entry_radius=3.8721413324, exit_radius=4.4999969274, start_turns=5.0)
 MAKERS = {
     "collision time": _collision,
     "contact": lambda: _contact(Dragon(9), Spiral(0.55, 6.0), 0.5),
@@ -90,6 +92,7 @@ MAKERS = {
     "clear to the centre": lambda: prove_clear(Dance(Dragon(3), Spiral(9.0, 0.7))),
     "turn": lambda: prove_clear(Dance(Dragon(3), Turn(1.7, start_turns=5.0)), 3.0, start=-1.0),
     "turn with a margin": lambda: prove_clear(Dance(Dragon(3), Turn(1.7)), 16.0, start=14.0, margin=0.3),
+    "turn with a tight arc": lambda: prove_clear(Dance(Dragon(3), SHORT), 11.0, start=7.0),
     "route": lambda: prove_clear(
         Dance(Dragon(3), Route([Line((0, 0), (10, 0)), Arc((10, 3), 3.0, -math.pi / 2, 2.0)], start=1.0)), start=10.0
     ),
