@@ -160,6 +160,7 @@ def pitch_grids() -> tuple[Shortcut, ...]:
 def _speeds() -> Iterator[Shortcut]:
     dance = Dance(Dragon(PEAK_BENCHES), right_turn())
     right = of_dance(dance)
+    yield Shortcut("speed_ratio", fastest().speed_ratio)
     for step in STEPS[:6]:
         yield _in_steps("speed_time_steps", _fastest(right, step), step)
     for step in STEPS:

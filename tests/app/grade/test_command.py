@@ -180,6 +180,7 @@ TYPED = [
     "pitch 0.450333 -> wrong",
     "turn_length 14.14 -> wrong ?arcs_not_tangent",
     "turn_length 14.137167 -> wrong arcs_not_tangent",
+    "speed 1.604793 -> wrong speed_ratio",
     "speed 1.4063 -> wrong ?speed_time_steps",
     "speed 1.406277 -> wrong speed_time_steps",
     "speed 1.2470 -> wrong",
