@@ -46,9 +46,12 @@ def test_both_languages_have_the_same_code_between_words_of_their_own(path):
 def test_positions_and_speeds_of_ten_lines_are_those_of_the_library_and_a_length_for_a_chord_is_found():
     lesson = ran("1_positions_and_speeds")
     assert lesson["apart"] < 1e-11  # "to eleven digits"
-    assert lesson["slowest"] < 1e-11
-    assert lesson["grade"].verdict == "wrong"
-    assert [finding.error for finding in lesson["grade"].diagnosis] == ["length_for_chord"]
+    assert lesson["furthest"] < 1e-11
+    assert lesson["own"] == ("right", [])
+    for name, words in (("long_benches", "The length of a bench"), ("differences", "forward difference quotients")):
+        verdict, (error,) = lesson[name]
+        assert verdict == "wrong"
+        assert words in error
 
 
 def test_a_look_once_a_second_misses_a_contact_that_a_step_which_is_a_proof_finds():
@@ -57,7 +60,7 @@ def test_a_look_once_a_second_misses_a_contact_that_a_step_which_is_a_proof_find
     assert lesson["first_seen"] - lesson["true"].time > 2.5  # "three seconds later"
     assert lesson["contact"].time - 1e-3 < lesson["time"] <= lesson["contact"].time
     assert lesson["mine"].verdict == "right"
-    assert lesson["paper"].verdict == "wrong"
+    assert (lesson["paper"].verdict, lesson["halved"].verdict) == ("wrong", "wrong")
     begin, end = lesson["clear_again"][[0, -1]]
     assert 415.0 < begin < end < 415.4
 
@@ -70,4 +73,5 @@ def test_halving_for_a_radius_ends_beside_a_jump_and_the_grader_judges_the_pitch
     assert_near(below - above, 0.17, 0.005)  # "17 cm apart"
     assert above < 4.5 < below
     assert_near(lesson["smallest"].head_radius, 4.57, 0.005)
+    assert "in steps of 1 s" in lesson["looked"].possible[0].words
     assert list(lesson["verdicts"].values()) == ["right", "right", "infeasible", "wrong", "wrong"]

@@ -89,8 +89,17 @@ paper.verdict, [guess.words for guess in paper.possible]
 # %% [markdown]
 # ## 练习 2
 #
-# 不要问“现在重叠吗？”再二分：板凳会重叠、分开、再重叠。请找出 412.5 s 之后又分开的一段。为什么在 410 s 与 415.2 s
-#  之间二分恰好失败？
+# 不要问“现在重叠吗？”再二分：板凳会重叠、分开、再重叠。请在 405 s（没有重叠）与 425.5 s（有重叠）之间二分，批改对结果
+# 怎么说？在 405 s 与 420 s 之间却碰巧成功：试过的哪个时刻起了决定作用？
+
+# %%
+low, high = 405.0, 425.5
+while high - low > 1e-7:
+    middle = (low + high) / 2
+    overlap = clearance_profile(dance, [middle]).clearance[0] <= 0.0
+    low, high = (low, middle) if overlap else (middle, high)
+halved = typed("collision_time", f"{high:.6f}")
+halved.verdict, halved.notes
 
 # %%
 after = clearance_profile(dance, np.arange(412.0, 416.0, 0.005))

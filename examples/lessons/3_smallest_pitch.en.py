@@ -20,7 +20,7 @@
 import numpy as np
 
 from app.grade.report import typed
-from core import Dance, Dragon, Spiral, first_contacts, minimum_pitch
+from core import Dance, Dragon, Spiral, clearance_profile, first_contacts, minimum_pitch
 
 # %% [markdown]
 # ## Where the head stops
@@ -89,8 +89,25 @@ verdicts
 # %% [markdown]
 # ## Exercise 2
 #
-# Make the circle smaller, 8 m. Does the answer change as you expect? And for a dragon whose head is as long as the
-# others, `Dragon(head_length=2.2)`?
+# Whoever looks at the way once a second misses the graze. Find the smallest pitch that looks clear so, and hand it in:
+# what does the grader say, and what of looks ten times as often? Then make the circle smaller, 8 m, or the head as
+# short as the others, `Dragon(head_length=2.2)`: does the answer change as you expect?
+
+
+# %%
+def looks_clear(pitch, step):
+    b = pitch / (2 * np.pi)
+    start, circle = (b / 2 * (at * np.sqrt(1 + at**2) + np.arcsinh(at)) for at in (32 * np.pi, 4.5 / b))
+    times = np.arange(0.0, start - circle, step)
+    return clearance_profile(Dance(Dragon(), Spiral(pitch)), times).clearance.min() > 0.0
+
+
+least, most = 0.44, 0.46
+while most - least > 1e-8:
+    middle = (least + most) / 2
+    least, most = (least, middle) if looks_clear(middle, 1.0) else (middle, most)
+looked = typed("pitch", f"{most:.7f}")
+most, looked.verdict, [guess.words for guess in looked.possible]
 
 # %%
 minimum_pitch(Dragon(), turning_radius=4.0).pitch, minimum_pitch(Dragon(head_length=2.2), turning_radius=4.5).pitch

@@ -20,7 +20,7 @@
 import numpy as np
 
 from app.grade.report import typed
-from core import Dance, Dragon, Spiral, first_contacts, minimum_pitch
+from core import Dance, Dragon, Spiral, clearance_profile, first_contacts, minimum_pitch
 
 # %% [markdown]
 # ## 龙头停在哪里
@@ -85,7 +85,24 @@ verdicts
 # %% [markdown]
 # ## 练习 2
 #
-# 把圆改小为 8 m，答案的变化合乎预料吗？若龙头与其余板凳一样长（`Dragon(head_length=2.2)`）呢？
+# 每秒只看一次途中情况的人会漏掉那次擦碰。请求出这样看来没有碰撞的最小螺距并交给批改：它怎么说？看得密十倍呢？再把圆改小
+# 为 8 m，或让龙头与其余板凳一样长（`Dragon(head_length=2.2)`）：答案的变化合乎预料吗？
+
+
+# %%
+def looks_clear(pitch, step):
+    b = pitch / (2 * np.pi)
+    start, circle = (b / 2 * (at * np.sqrt(1 + at**2) + np.arcsinh(at)) for at in (32 * np.pi, 4.5 / b))
+    times = np.arange(0.0, start - circle, step)
+    return clearance_profile(Dance(Dragon(), Spiral(pitch)), times).clearance.min() > 0.0
+
+
+least, most = 0.44, 0.46
+while most - least > 1e-8:
+    middle = (least + most) / 2
+    least, most = (least, middle) if looks_clear(middle, 1.0) else (middle, most)
+looked = typed("pitch", f"{most:.7f}")
+most, looked.verdict, [guess.words for guess in looked.possible]
 
 # %%
 minimum_pitch(Dragon(), turning_radius=4.0).pitch, minimum_pitch(Dragon(head_length=2.2), turning_radius=4.5).pitch
