@@ -13,11 +13,11 @@ from flint import acb, arb
 
 from core import Dance, Dragon, InvalidValue, Route, Spiral, Turn, kernels
 from core.checks import SIZE_MAX, SIZE_MIN
-from core.contact.search import ContactSearch, SearchInput
 from core.kernels.constants import ERROR, HALF_LENGTH, HALF_WIDTH, MX, MY, PX, PY, RADIUS, SWAY, UX, UY
 from tests.campaigns import hunting
 from tests.support.exact_chain import ExactRoute, separation, spiral_handles
 from tests.support.random_routes import Pen
+from tests.support.searches import search_on
 
 # Gaps compared in every chain, half of them of pairs behind the head.
 PAIRS = 20
@@ -58,7 +58,7 @@ def random_spiral(rng):
             continue
         theta = end + 10 ** rng.uniform(-6.0, 0.0) if rng.random() < 0.3 else rng.uniform(end, spiral.start_theta)
         if theta > 0.0 and (dragon.chords / growth / (1.0 + theta)).max() < 3.0:
-            return ContactSearch(SearchInput(dragon, spiral, 0.0)), float(theta)
+            return search_on(dragon, spiral), float(theta)
 
 
 def random_route(rng):
@@ -73,7 +73,7 @@ def random_route(rng):
         except InvalidValue:
             continue
         if begin < end:
-            return ContactSearch(SearchInput(dragon, path, 0.0)), rng.uniform(begin, end)
+            return search_on(dragon, path), rng.uniform(begin, end)
 
 
 def random_path(rng):

@@ -23,7 +23,6 @@ from core import (
     trajectory,
 )
 from core.contact.fold import gap_rounding
-from core.contact.search import ContactSearch, SearchInput
 from core.design.ways import Ways
 from core.extremes.speed import SPEED_ROUNDING, first_excess
 from core.kernels.constants import CLIMB, CLIMB_ERROR, ERROR, RATE, RATE_ERROR
@@ -31,6 +30,7 @@ from core.sampling import bisect
 from tests.campaigns.rounding_sweep import compare, sweep
 from tests.support.depth import further
 from tests.support.exact_chain import BITS, angles_behind, coil_handles, middle, separation, spiral_place
+from tests.support.searches import search_on
 
 # Gaps compared of every seed; `make rounding` compares 10,000.
 GAPS = 300
@@ -52,7 +52,7 @@ def test_no_gap_of_a_random_chain_is_off_by_more_than_its_bound(seed):
 def test_two_thousand_benches_of_two_lengths_stand_at_their_places():
     dragon = Dragon.of([1.2, 0.9] * 1_000, [0.2] * 2_000, [0.1] * 2_000)
     errors = defaultdict(list)
-    compare(errors, ContactSearch(SearchInput(dragon, Spiral(0.55, 200.0), 0.0)), 30.0, np.random.default_rng(0))
+    compare(errors, search_on(dragon, Spiral(0.55, 200.0)), 30.0, np.random.default_rng(0))
     assert max(map(max, errors.values())) <= 1.0
 
 
@@ -70,7 +70,7 @@ def test_a_margin_within_rounding_of_the_clearance_at_the_start_is_undecided(ben
     profile = clearance_profile(dance, 0.0)
     margin = float(profile.clearance)
     assert first_contact(dance, margin=margin).outcome is Outcome.UNDECIDED
-    search = ContactSearch(SearchInput(dance.dragon, dance.path, margin))
+    search = search_on(dance.dragon, dance.path, margin)
     rounding = gap_rounding(search, 0.0, margin)
     assert abs(exact_gap(dance.dragon, dance.path, 0.0, profile.benches.tolist()) - margin) <= rounding
     certain = margin + 2.0 * rounding + 4.0 * search.travel_rounding(0.0)
@@ -103,7 +103,7 @@ def test_however_long_the_way_both_ends_of_a_bracket_are_true(turns, margin):
     spiral = Spiral(0.55, turns)
     contact = true_bracket(dragon, spiral, margin=margin)
     clear, within = contact.time_bracket
-    search = ContactSearch(SearchInput(dragon, spiral, margin))
+    search = search_on(dragon, spiral, margin)
     assert within - clear <= 1e-9 + 8.0 * search.travel_rounding(contact.time)
 
 
@@ -113,7 +113,7 @@ def test_pieces_that_miss_each_other_count_as_rounding(x, y):
     route = Route([Line((0.0, 0.0), (30.0, 0.0)), Line((30.0 + x, y), (60.0, y))])
     assert route.table[0, kernels.LOOSE] >= 2.0 * y
     assert route.slide >= abs(x)
-    search = ContactSearch(SearchInput(Dragon(3), route, 0.0))
+    search = search_on(Dragon(3), route)
     search.clearance(30.5)
     kernels.chain_rounding(search.curve, 3, search.sizes, search.placed)
     assert search.placed[0, ERROR] >= y
@@ -124,7 +124,7 @@ def test_what_a_chain_does_not_write_is_never_read(path, until):
     """The same march from rows that hold no numbers, and from rows of zeros."""
     entries = []
     for value in (math.nan, 0.0):
-        search = ContactSearch(SearchInput(Dragon(40), path, 0.05))
+        search = search_on(Dragon(40), path, 0.05)
         search.chains[:, 2:] = value
         entries.append(search.march(until, 1e-10, start=-20.0))
     assert entries[0] == entries[1]
@@ -151,7 +151,7 @@ def test_rates_and_slopes_near_the_centre_are_within_their_bounds(seed, beyond):
     dragon = Dragon.of(rng.uniform(1.0, 3.0, 9), np.full(9, 0.3), np.full(9, 0.1))
     spiral = Spiral(rng.uniform(0.5, 1.2), 4.0)
     theta = (Dance(dragon, spiral).end.theta or 0.0) + beyond
-    search = ContactSearch(SearchInput(dragon, spiral, 0.0))
+    search = search_on(dragon, spiral)
     chain, sizes, growth, motion = search.placed, search.sizes, spiral.growth, search.motion
     kernels.start_chain(theta, chain)
     assert kernels.extend_chain(growth, 0, 9, kernels.FREE, sizes, chain) == 9

@@ -183,16 +183,12 @@ def test_a_pitch_scan_has_the_first_contacts_of_core_and_the_jumps_if_they_are_l
     assert len(scan["jumps"]) > 10
 
 
-def test_overlaps_and_the_verdicts_of_the_engines_are_those_of_core(ask):
+def test_neighbours_of_a_chain_are_no_overlap_and_the_engines_may_disagree(ask):
+    """The numbers are those of the example in the description of the call."""
     benches = [{"x": x, "y": y, "heading": heading, "length": 2.0, "width": 0.3} for x, y, heading in PLACES]
     for chained, pairs in ((True, [[0, 2]]), (False, [[0, 2], [2, 3]])):
         got = ask("overlaps", {"benches": benches, "chained": chained})
-        sizes = ([2.0] * 4, [0.3] * 4)
-        contact = core.overlaps(PLACES, *sizes, chained=chained).contact
         assert [one["benches"] for one in got["overlaps"]] == pairs
-        for name in ("separation", "witness_a", "witness_b", "normal"):
-            assert [one[name] for one in got["overlaps"]] == json_like(getattr(contact, name))
-        assert got["cross_check"]["engines"] == json_like(core.cross_check(PLACES, *sizes, chained=chained).pairs)
     # No corner lies inside the other bench, so the angle sum cannot see the first crossing.
     assert (got["cross_check"]["agree"], got["cross_check"]["engines"]["angle_sum"]) == (False, [[2, 3]])
 

@@ -5,9 +5,9 @@ import pytest
 
 from core import Dance, Dragon, EndReason, Outcome, Spiral, first_contact
 from core.contact.fold import least_left, least_to_fold
-from core.contact.search import ContactSearch, SearchInput
 from tests.support.depth import thorough
 from tests.support.random_dances import random_dance
+from tests.support.searches import search_on
 from tests.support.slow_search import SlowDance
 
 # Rounding of a slow clearance [m].
@@ -42,7 +42,7 @@ def test_no_instant_before_a_fold_has_benches_nearer_than_the_bound_on_the_motio
     dance, slow = random_dance(seed)
     end = dance.end
     assert end.reason is EndReason.FOLD
-    search = ContactSearch(SearchInput(dance.dragon, dance.path, 0.0))
+    search = search_on(dance.dragon, dance.path)
     for left in (1e-3, 1e-5, 1e-7):
         travel = (1.0 - left) * end.time
         least = least_to_fold(search, travel, end.theta)

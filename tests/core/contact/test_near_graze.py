@@ -27,12 +27,12 @@ from core import (
 )
 from core.contact.decimal_shapes import DIGITS, exact_separation
 from core.contact.near_graze import LAST_BENCH, NEGLIGIBLE, ExactPair, narrow_bracket
-from core.contact.search import ContactSearch, SearchInput
 from core.kernels import Ended
 from core.kernels.results import Marched
 from tests.support.depth import thorough
 from tests.support.near import assert_near
 from tests.support.scenes import lengths_and_widths
+from tests.support.searches import search_on
 
 # Positions of the kernels [m]: on a route a kilometre long an arc length is good to 2e-13 m.
 DOUBLE = 1e-12
@@ -52,7 +52,7 @@ def in_decimals():
 
 
 def pair_of(path, pair):
-    search = ContactSearch(SearchInput(DRAGON, path, 0.0))
+    search = search_on(DRAGON, path)
     search.resize(DRAGON.benches)
     return ExactPair(search, pair)
 
@@ -127,7 +127,7 @@ def test_with_passages_the_bracket_of_a_near_graze_is_as_narrow(margin, below):
 @pytest.fixture(scope="module")
 def grazing():
     """A search on a spiral a nanometre of pitch below the least one, and its contact: a graze 2 mm of travel long."""
-    search = ContactSearch(SearchInput(DRAGON, grazing_spiral(0.0, 1e-9), 0.0))
+    search = search_on(DRAGON, grazing_spiral(0.0, 1e-9))
     result = search.approach(0.0, 300.0, 1.0)
     assert result.ended == Ended.TOUCHED
     assert result.half > 0.5 * BRACKET
@@ -152,7 +152,7 @@ def test_a_bracket_is_narrowed_where_one_pair_is_near_and_not_apart_again(grazin
 @pytest.mark.parametrize("margin, alone", [(1e-3, False), *thorough((0.0, True))])
 def test_where_another_pair_was_within_the_margin_earlier_the_bracket_stays(margin, alone):
     """Benches 0 and 11 pass each other 0.9 mm apart, 2.6 m of travel before benches 0 and 8 touch."""
-    search = ContactSearch(SearchInput(DRAGON, Spiral(), margin))
+    search = search_on(DRAGON, Spiral(), margin)
     assert (narrow_bracket(search, Marched(Ended.TOUCHED, 409.0, 412.48, (0, 8)), BRACKET) is not None) is alone
 
 

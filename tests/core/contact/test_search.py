@@ -3,10 +3,11 @@
 import pytest
 
 from core import Dragon, Spiral
-from core.contact.search import ContactSearch, SearchInput, joined
+from core.contact.search import joined
 from core.kernels import Ended
 from core.kernels.results import Dip, Marched
 from tests.support.near import assert_near
+from tests.support.searches import search_on
 
 # The default dance first touches here, benches 0 and 8, and would have grazed with 0 and 11 before [m of head travel].
 CONTACT = 412.4738376822
@@ -16,7 +17,7 @@ GRAZING = (0, 11)
 
 @pytest.fixture
 def search():
-    return ContactSearch(SearchInput(Dragon(30), Spiral(), 0.0))
+    return search_on(Dragon(30), Spiral())
 
 
 def test_all_pairs_but_the_touching_one_are_clear_and_it_is_followed_again_afterwards(search):

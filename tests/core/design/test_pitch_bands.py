@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from core import Spiral, kernels
-from core.contact.search import ContactSearch, SearchInput
 from core.design.pitch_bands import Bands
 from core.kernels import Ended
 from core.kernels.constants import MX, MY, SHIFT_CENTRE, SHIFT_CORNER, SHIFT_OMEGA, SHIFT_PULL, UX, UY
 from core.shapes.rectangles import corners
 from tests.campaigns.hunt_contacts import random_dragon
 from tests.support.scenes import lengths_and_widths
+from tests.support.searches import search_on
 
 # Rounding of a corner's place [m], of which a second difference quotient sees four times as much over the square step.
 ROUNDING = 1e-13
@@ -39,7 +39,7 @@ def random_bands(seed):
     turns = rng.uniform(5.0, 20.0)
     margin = rng.choice([0.0, 0.2 * dragon.chords[-1]])
     high = min(10 ** rng.uniform(0.1, 0.9) * (dragon.widths.max() + margin), 3.0 * dragon.chords.min())
-    bands = Bands(ContactSearch(SearchInput(dragon, Spiral(high, turns), margin)), radius, turns, margin)
+    bands = Bands(search_on(dragon, Spiral(high, turns), margin), radius, turns, margin)
     return bands, high / (1.0 + 10 ** rng.uniform(-3.5, -0.5)), high
 
 

@@ -25,11 +25,11 @@ from core import (
     maximum_head_speed,
     trajectory,
 )
-from core.contact.search import ContactSearch, SearchInput
 from core.extremes.speed import RATE_TOLERANCE
 from tests.support.random_dances import unlike_dance
 from tests.support.reference import reference
 from tests.support.refused import refused
+from tests.support.searches import search_on
 
 SPEED = reference("maximum_head_speed")
 REFERENCE_ERROR = 1e-9  # [m/s] and [s]
@@ -118,7 +118,7 @@ UNSEEN = 1e-6
 
 def intervals_of(dance, stop):
     """Number of intervals in the proof of the highest speed, the head at 1 m/s."""
-    search = ContactSearch(SearchInput(dance.dragon, dance.path, 0.0))
+    search = search_on(dance.dragon, dance.path)
     search.resize(dance.dragon.benches)
     return core.extremes.speed.peak_over(search, 0.0, stop).intervals
 

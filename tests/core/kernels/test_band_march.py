@@ -5,9 +5,9 @@ import math
 import pytest
 
 from core import Dragon, Spiral
-from core.contact.search import ContactSearch, SearchInput
 from core.design.pitch_bands import Bands
 from core.kernels import Ended, gap_at
+from tests.support.searches import search_on
 
 CIRCLE = 4.5
 WORK = 1e7
@@ -22,7 +22,7 @@ WORK = 1e7
 )
 def test_a_band_reaches_the_circle_or_touches_or_has_not_begun(pitch, leaders, work, ended):
     """Without work, and with more leaders than rows, nothing is proven."""
-    search = ContactSearch(SearchInput(Dragon(60), Spiral(pitch), 0.0))
+    search = search_on(Dragon(60), Spiral(pitch))
     band = Bands(search, CIRCLE, 16.0, 0.0).march_to((pitch + 0.001) / (2.0 * math.pi))
     result = band.run(6.0, CIRCLE, leaders, 1e-12, 1e-9, work)
     assert result.ended is ended

@@ -1,4 +1,4 @@
-"""The bounds on motion along routes against dense samples: rates, turning, second and third derivatives."""
+"""The bounds on motion along routes and spirals against dense samples: rates, turning, second and third derivatives."""
 
 import numpy as np
 import pytest
@@ -17,47 +17,32 @@ from core.kernels.constants import (
     RATE_HIGH,
     RATE_JERK,
     RATE_RATE,
-    TX,
-    TY,
 )
 from tests.support.intervals import ROUNDING, on_route, on_spiral
 
 
 @pytest.mark.parametrize("seed", range(60))
-def test_no_sampled_derivative_on_a_route_exceeds_its_bound(seed):
+def test_no_sampled_rate_on_a_route_exceeds_its_bound(seed):
     at = on_route(seed)
     handles = at.motion[1:].T
-    benches = at.motion[:-1].T
-    chords = at.dragon.chords
-    radii = at.sizes[:-1, RADIUS]
     smooth = handles[CROSSED] == 0.0
     rate = at.chains[:, :, RATE]
     assert (rate >= 0.0).all()
-    velocity = rate * (at.chains[:, :, [TX, TY]] @ [1.0, 1.0j])
-    omega = (at.along.conj() * (velocity[:, :-1] - velocity[:, 1:])).imag / chords
-    centre = 0.5 * (velocity[:, 1:] + velocity[:, :-1])
-    corner = centre + 1j * omega * radii * at.along
     climb = at.differences(rate)[:, 1:]
     stride = at.stride * at.step
     slack = 2.0 * ROUNDING / stride
     for values, bounds, rounding in (
         (rate[:, 1:], handles[RATE_HIGH], ROUNDING),
-        (np.maximum(rate[:, 1:], rate[:, :-1]), benches[HANDLE_SPEED], ROUNDING),
+        (np.maximum(rate[:, 1:], rate[:, :-1]), at.motion[:-1, HANDLE_SPEED], ROUNDING),
         (climb, handles[RATE_RATE], slack),
         (at.differences(climb)[:, smooth], handles[RATE_JERK, smooth], 2.0 * slack / stride),
-        (omega, benches[OMEGA], 2.0 * ROUNDING / chords),
-        (at.differences(omega), benches[OMEGA_PULL], slack / chords),
-        (centre, benches[CENTRE_SPEED], ROUNDING),
-        (at.differences(centre), benches[CENTRE_PULL], slack),
-        (corner, benches[CORNER_SPEED], ROUNDING),
-        (at.differences(corner), benches[CORNER_PULL], slack * (1.0 + 2.0 * radii / chords)),
     ):
         assert (np.abs(values).max(axis=0) <= bounds + rounding).all()
 
 
-@pytest.mark.parametrize("seed", range(40))
-def test_no_sampled_motion_on_a_spiral_exceeds_its_bound(seed):
-    at = on_spiral(seed)
+@pytest.mark.parametrize("sample, seed", [*((on_spiral, k) for k in range(40)), *((on_route, k) for k in range(60))])
+def test_no_sampled_motion_exceeds_its_bound(sample, seed):
+    at = sample(seed)
     bounds = at.motion[:-1].T
     stride = at.stride * at.step
     swayed = 2.0 * at.rounding / at.dragon.chords

@@ -5,8 +5,8 @@ import pickle
 import pytest
 
 from core import Dragon, Spiral
-from core.contact.search import ContactSearch, SearchInput
 from core.kernels import Budget, Halted
+from tests.support.searches import search_on
 
 
 def test_a_loop_has_to_end_when_its_work_is_done_or_when_it_is_stopped():
@@ -46,7 +46,7 @@ def test_a_budget_keeps_its_state_in_another_process():
 
 def test_a_scene_has_the_halt_of_its_search_whatever_path_that_takes():
     budget = Budget(5.0)
-    search = ContactSearch(SearchInput(Dragon(5), Spiral(), 0.0), budget=budget)
+    search = search_on(Dragon(5), Spiral(), budget=budget)
     search.resize(4)
     search.use(Spiral(0.7), 0.1)
     search.scene.budget.left -= 2.0

@@ -3,9 +3,9 @@
 import pytest
 
 from core import Dragon, Spiral, Turn
-from core.contact.search import ContactSearch, SearchInput
 from core.kernels import gap_at, gap_rate_at
 from tests.support.near import assert_near
+from tests.support.searches import search_on
 
 # Step of difference quotients [m], and the error that it leaves in a rate [1].
 STEP = 1e-5
@@ -20,7 +20,7 @@ def gap(search, travel, pair):
 @PATHS
 @pytest.mark.parametrize("pair", [(0, 9), (3, 13), (7, 20)])
 def test_a_gap_changes_as_fast_as_said(path, travel, pair):
-    search = ContactSearch(SearchInput(Dragon(45), path, 0.0))
+    search = search_on(Dragon(45), path)
     quotient = (gap(search, travel + STEP, pair) - gap(search, travel - STEP, pair)) / (2.0 * STEP)
     rate = gap_rate_at(search.scene, search.place - travel, *pair, search.tried)
     assert_near(rate, quotient, QUOTIENT)

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from core import Arc, Dance, Dragon, Part, Passage, Performance, Route, Spiral, bench_poses, trajectory
-from core.contact.search import ContactSearch, SearchInput
 from core.contact.stage import Stage, clear_of_each_other
 from core.kernels import spirals_least
 from core.kernels.constants import CENTRE_PULL, CENTRE_SPEED, FREE, OMEGA
+from tests.support.searches import search_on
 from tests.support.slow_performance import SlowPerformance
 
 # Instants within a step at which gaps and motions are measured [1], and what a difference quotient may miss [1].
@@ -65,7 +65,7 @@ def test_the_motion_in_time_and_the_gaps_of_two_dragons_stay_within_their_bounds
 def test_further_out_in_one_spiral_no_gap_falls_below_the_ring_bound(count, pitch):
     angle = 2.0 * math.pi / count
     dragon = Dragon(60)
-    rings = ContactSearch(SearchInput(dragon, Spiral(pitch), 0.0, copies=count)).rings
+    rings = search_on(dragon, Spiral(pitch), copies=count).rings
     parts = [Part(Dance(dragon, Spiral(pitch, 9.0, rotation=angle * k), 1.0 + 0.1 * k)) for k in range(count)]
     growth = pitch / (2.0 * math.pi)
     stage = Stage(Performance(parts), (0.0, 30.0), 0.0)

@@ -3,15 +3,15 @@
 import pytest
 
 from core import Dragon, Turn
-from core.contact.search import ContactSearch, SearchInput
 from core.kernels import Excess, Judged
+from tests.support.searches import search_on
 
 WIDTH = 1e-9
 
 
 @pytest.mark.parametrize("links, judged", [(0, Judged.UNDECIDED), (10**6, Judged.EXCEEDED)])
 def test_a_search_with_links_ends_and_without_them_is_given_up(links, judged):
-    search = ContactSearch(SearchInput(Dragon(6), Turn(1.7), 0.0))
+    search = search_on(Dragon(6), Turn(1.7))
     excess = Excess(search.interval, 0.0)
     assert excess.run(0.0, 25.0, 0.5, 1.2, 1.2 * (1.0 + 1e-9), WIDTH, 1e-13, links) is judged
     if links:

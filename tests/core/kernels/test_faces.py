@@ -3,9 +3,9 @@
 import numpy as np
 
 from core import Dragon, Spiral
-from core.contact.search import ContactSearch, SearchInput
 from core.kernels import gap_at, pair_least, pair_most
 from core.kernels.constants import CENTRE_SPEED, FREE, MX, MY
+from tests.support.searches import search_on
 
 ROUNDING = 1e-12  # [m]
 
@@ -17,7 +17,7 @@ def test_over_an_interval_two_benches_are_between_their_bounds_whether_they_stra
     for k in range(240):
         dragon = Dragon(9, 2.0, rng.uniform(1.2, 2.0), rng.uniform(0.1, 0.5))
         stray = rng.uniform(0.002, 0.1) * (k % 2)
-        search = ContactSearch(SearchInput(dragon, Spiral(0.5, 3.0), 0.0, stray=stray))
+        search = search_on(dragon, Spiral(0.5, 3.0), stray=stray)
         a = int(rng.integers(0, 3))
         b = int(rng.integers(a + 2, 9))
         h = 10 ** rng.uniform(-9.0, -1.0)

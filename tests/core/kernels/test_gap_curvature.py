@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from core import Dragon, Spiral
-from core.contact.search import ContactSearch, SearchInput
 from core.kernels import axis_curvature, pair_curvatures, shift_curvature
 from core.kernels.constants import (
     CENTRE_PULL,
@@ -35,6 +34,7 @@ from core.kernels.constants import (
 )
 from tests.support.depth import some
 from tests.support.intervals import checked_pairs, on_route, on_spiral
+from tests.support.searches import search_on
 
 # Directions of axes fixed in a bench, from its length [rad].
 AXES = (0.0, 0.7, 0.5 * np.pi, 2.5)
@@ -108,7 +108,7 @@ def test_a_bound_has_every_term_of_its_derivation(seed):
 
 
 def test_bounds_on_a_pair_reach_as_far_as_its_centres_may_move():
-    search = ContactSearch(SearchInput(Dragon(12), Spiral(), 0.0))
+    search = search_on(Dragon(12), Spiral())
     h = 0.25
     pair = (0, 9)
     result = pair_curvatures(search.scene, search.probe, search.place - 400.0, h, *pair)

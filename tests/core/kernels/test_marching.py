@@ -1,8 +1,8 @@
 """A march: how it ends. What it proves of the way: test_nearest.py."""
 
 from core import Dragon, Spiral
-from core.contact.search import ContactSearch, SearchInput
 from core.kernels import Ended, March
+from tests.support.searches import search_on
 
 HALF_BRACKET = 1e-10
 ROUNDING = 1e-12
@@ -11,7 +11,7 @@ CONTACT = 412.4738376822
 
 
 def forty():
-    return ContactSearch(SearchInput(Dragon(40), Spiral(), 0.0))
+    return search_on(Dragon(40), Spiral())
 
 
 def marched(search, work=1e7):

@@ -3,9 +3,9 @@
 import math
 
 from core import Arc, Dance, Dragon, Line, Route, Spiral, clearance_profile, first_contact
-from core.contact.search import ContactSearch, SearchInput
 from core.kernels import Ended, March
 from tests.support.near import assert_near
+from tests.support.searches import search_on
 
 # The default dance first touches here, benches 0 and 8 [m of head travel].
 CONTACT = 412.4738376822
@@ -13,7 +13,7 @@ CONTACT = 412.4738376822
 
 def test_with_too_few_rows_for_the_benches_in_reach_a_march_ends_at_capacity_and_misses_nothing():
     """The rings around the head hold some 130 benches: as few rows, and one would be missing from a pair."""
-    search = ContactSearch(SearchInput(Dragon(600), Spiral(), 0.0))
+    search = search_on(Dragon(600), Spiral())
     ended = set()
     for rows in (3, 9, 60, 120, 160, 300):
         search.resize(rows)

@@ -3,16 +3,16 @@
 import pytest
 
 from core import Dragon, Spiral
-from core.contact.search import ContactSearch, SearchInput
 from core.kernels import bench_separation, gap_at
 from tests.support.near import assert_near
+from tests.support.searches import search_on
 
 ROUNDING = 1e-13  # [m]
 
 
 @pytest.mark.parametrize("travel", [0.0, 400.0, 412.5, 425.0])
 def test_witnesses_lie_the_gap_apart_along_the_normal(travel):
-    search = ContactSearch(SearchInput(Dragon(40), Spiral(), 0.0))
+    search = search_on(Dragon(40), Spiral())
     search.clearance(travel)
     for b in range(2, 40):
         met = bench_separation(0, b, search.sizes, search.placed)

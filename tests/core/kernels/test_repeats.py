@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from core import Dance, Dragon, EndReason, Outcome, Spiral, Turn, first_contact, trajectory
-from core.contact.search import ContactSearch, SearchInput
 from core.kernels.constants import THETA
 from core.sampling import bisect
 from tests.support.depth import some, thorough
 from tests.support.near import assert_near
+from tests.support.searches import search_on
 
 # Two poses of one bench at one place of a path, found by two ways of the head [m], and two times of contact [s].
 SAME = 1e-9
@@ -24,7 +24,7 @@ def test_a_pair_of_equal_benches_repeats_in_place_what_the_first_of_them_met(pat
     dragon = Dragon.of(lengths, np.full(40, 0.3), np.full(40, 0.275))
     assert dragon.uniform_from == first
     rng = np.random.default_rng(first)
-    search = ContactSearch(SearchInput(dragon, path, 0.0))
+    search = search_on(dragon, path)
 
     def place(handle, time):
         search.place_leaders(time, 40)

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from core import Dance, Dragon, Spiral, bench_outlines, trajectory
-from core.contact.search import ContactSearch, SearchInput
 from core.kernels import (
     clear_radius,
     leaders_reach,
@@ -16,6 +15,7 @@ from core.kernels import (
 )
 from core.kernels.constants import FREE
 from tests.campaigns.hunt_contacts import random_dragon
+from tests.support.searches import search_on
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -23,7 +23,7 @@ def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_thei
     rng = np.random.default_rng(seed)
     dragon = Dragon(40, 3.4, rng.uniform(0.8, 2.2), 0.3, rng.uniform(0.0, 0.3))
     spiral = Spiral(rng.uniform(0.3, 1.5))
-    search = ContactSearch(SearchInput(dragon, spiral, 0.0))
+    search = search_on(dragon, spiral)
     position = trajectory(Dance(dragon, spiral), rng.uniform(0.0, 100.0)).position
     far, handles = (np.linalg.norm(points, axis=-1) for points in (bench_outlines(dragon, position), position))
     for k in range(40):
@@ -55,7 +55,7 @@ def random_case(seed):
     ],
 )
 def test_no_clearance_falls_below_the_ring_bound_further_out(dragon, pitch, stray):
-    search = ContactSearch(SearchInput(dragon, Spiral(pitch), 0.0, stray=stray))
+    search = search_on(dragon, Spiral(pitch), stray=stray)
     bounds = []
     for travel in np.linspace(0.0, 0.95, 30) * search.travel_at(0.0):
         at = search.growth, search.growth * search.theta_at(travel), search.rings
@@ -67,19 +67,19 @@ def test_no_clearance_falls_below_the_ring_bound_further_out(dragon, pitch, stra
 @pytest.mark.parametrize("margin", [0.0, 0.1])
 @pytest.mark.parametrize("pitch", [0.45, 0.55, 1.7])
 def test_the_clear_radius_is_the_least_from_which_the_ring_bound_exceeds_the_margin(pitch, margin):
-    rings = ContactSearch(SearchInput(Dragon(), Spiral(pitch), margin)).rings
+    rings = search_on(Dragon(), Spiral(pitch), margin).rings
     growth = Spiral(pitch).growth
     radii = np.array([0.998, 1.0, 1.1, 10.0]) * rings.clear_radius
     assert [ring_clears(growth, growth, radius, margin, rings) for radius in radii] == [False, True, True, True]
 
 
 def test_no_radius_is_clear_where_rings_are_narrower_than_benches():
-    assert ContactSearch(SearchInput(Dragon(), Spiral(0.29), 0.0)).clear_radius == FREE
+    assert search_on(Dragon(), Spiral(0.29)).clear_radius == FREE
 
 
 @pytest.mark.parametrize("angle", [3.0, 2.0])
 def test_the_bound_for_two_spirals_over_a_range_of_growths_is_none_above_that_of_a_growth_in_it(angle):
-    rings = ContactSearch(SearchInput(Dragon(40), Spiral(), 0.0, copies=2)).rings
+    rings = search_on(Dragon(40), Spiral(), copies=2).rings
     for low, high in ((0.2, 0.21), (0.2, 0.4), (0.5, 0.9)):
         least = spirals_least(high, angle, 20.0, rings, low)
         inside = [spirals_least(growth, angle, 20.0, rings) for growth in np.linspace(low, high, 9)]
@@ -92,7 +92,7 @@ def test_the_bound_for_two_spirals_over_a_range_of_growths_is_none_above_that_of
 def test_the_bound_for_turns_apart_is_the_distance_of_their_line_from_the_origin(angle):
     """Points at polar angles x apart are G + growth x apart radially, and 2 rho |x| / pi sideways: the bound is the
     least of both together. G is growth times the angle of the spirals less the bows, so the bound grows with it."""
-    rings = ContactSearch(SearchInput(Dragon(40), Spiral(), 0.0)).rings
+    rings = search_on(Dragon(40), Spiral()).rings
     growth = 0.8
     radius = 8.0
     foot = max(0.5 * rings.all_chord, 1.67 * growth)
@@ -106,7 +106,7 @@ def test_the_bound_for_turns_apart_is_the_distance_of_their_line_from_the_origin
 
 @pytest.mark.parametrize("pitch, radius", [(0.5, 9.0), (0.55, 4.0), (0.55, 9.0), (0.7, 3.0)])
 def test_benches_of_one_dragon_a_turn_apart_have_the_bound_of_spirals_a_turn_apart(pitch, radius):
-    rings = ContactSearch(SearchInput(Dragon(40), Spiral(pitch), 0.0)).rings
+    rings = search_on(Dragon(40), Spiral(pitch)).rings
     growth = Spiral(pitch).growth
     alone = ring_least(growth, growth, radius, rings)
     assert 0.0 < alone == pytest.approx(spirals_least(growth, 2.0 * np.pi, radius, rings), rel=1e-12)

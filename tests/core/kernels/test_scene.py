@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from core import Dragon, Spiral
-from core.contact.search import ContactSearch, SearchInput
 from core.kernels import Rings, Scene, spiral_curve
 from core.kernels.constants import (
     ERROR,
@@ -15,6 +14,7 @@ from core.kernels.constants import (
     SIZE_COLUMNS,
     SWAY,
 )
+from tests.support.searches import search_on
 
 
 @pytest.mark.parametrize("benches, edges, room", [(223, 0, 40), (10, 0, 10), (30, 10, 30)])
@@ -24,12 +24,12 @@ def test_a_scene_has_room_for_as_many_benches_as_rows(benches, edges, room):
 
 
 def test_an_interval_whose_chain_folds_has_no_bounds():
-    assert not ContactSearch(SearchInput(Dragon(5), Spiral(), 0.0)).interval.lay_out(0.1, 0.01, 5)
+    assert not search_on(Dragon(5), Spiral()).interval.lay_out(0.1, 0.01, 5)
 
 
 def test_copies_move_as_the_dragon_does_with_larger_errors():
     """Where they stand: tests/core/design/test_pitch_search.py."""
-    search = ContactSearch(SearchInput(Dragon(12), Spiral(), 0.0, copies=3))
+    search = search_on(Dragon(12), Spiral(), copies=3)
     assert search.interval.lay_out(search.place - 20.0, 0.05, 12)
     placed, motion = (rows.reshape(3, 13, -1) for rows in (np.asarray(search.placed), np.asarray(search.motion)))
     for error in (ERROR, SWAY):

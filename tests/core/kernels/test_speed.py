@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from core import Dragon, Turn
-from core.contact.search import ContactSearch, SearchInput
 from core.kernels import Peak
 from core.kernels.constants import FREE
 from tests.support.near import assert_near
+from tests.support.searches import search_on
 
 ROUNDING = 1e-11
 
@@ -15,7 +15,7 @@ ROUNDING = 1e-11
 @pytest.mark.parametrize("radius", [4.5, 5.2, 6.5])
 @pytest.mark.parametrize("start", [pytest.param(-30.0, id="from before"), pytest.param(18.0, id="from within")])
 def test_what_is_proven_of_the_way_out_is_what_following_all_of_it_proves(radius, start):
-    search = ContactSearch(SearchInput(Dragon(12), Turn(1.7, turning_radius=radius), 0.0))
+    search = search_on(Dragon(12), Turn(1.7, turning_radius=radius))
     rates = []
     for alike in (1, 11):  # with the last bench alone alike, none repeats
         peak = Peak(search.interval, search.probed, FREE, alike, start, 200.0, 1e-12)
