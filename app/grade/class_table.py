@@ -20,7 +20,7 @@ from itertools import combinations, pairwise
 
 import numpy as np
 
-from app.grade.judged import Rating
+from app.grade.judged import DECIMALS_OF_CONTEST, Rating
 from app.grade.unusual import DECIMALS_LEAST
 from app.grade.words import word
 from core import InvalidValue
@@ -35,6 +35,8 @@ DEFAULT = {"result1": 40.0, "result2": 20.0, "question3": 10.0, "result4": 40.0,
 POINTS_MAX, DECIMALS = 1000.0, 1
 # Fewest wrong numbers that two files share, and least share of those compared, so that it is pointed out.
 SHARED_LEAST, SHARED_SHARE = 3, 0.5
+# How numbers end that have the fewest decimals that are compared, of the six that are written.
+ROUNDED_END = "0" * (DECIMALS_OF_CONTEST - DECIMALS_LEAST)
 # Most files with one number of which all are compared with each other.
 MANY = 8
 # Most files that a remark names.
@@ -161,25 +163,23 @@ def alike(rows: Sequence[ClassRow]) -> list[str]:
 
 def _is_plain(row: ClassRow) -> bool:
     """True for right numbers in plain text, which are the same bytes for everyone who writes them alike."""
-    return row.file.lower().endswith(".csv") and row.verdict in (Rating.RIGHT, Rating.ROUNDED)
+    return row.file.lower().endswith(".csv") and row.verdict in (Rating.RIGHT, Rating.ROUNDED, Rating.INCOMPLETE)
 
 
 def _sharing(rows: Sequence[ClassRow]) -> list[tuple[list[ClassRow], set[str]]]:
     """Groups of files of several teams in which most of the numbers compared are the same wrong ones, with these.
 
+    A file in which all have the fewest decimals may be a rounded copy: with others it is compared to these decimals.
     Of a number in many files only neighbours are compared: who shares a table has its numbers in a row of neighbours.
     """
     from scipy.sparse import coo_array  # type: ignore[import-untyped]
     from scipy.sparse.csgraph import connected_components  # type: ignore[import-untyped]
 
-    numbers = [set(map(_to_least_decimals, row.unusual)) for row in rows]
-    holders: dict[str, list[int]] = defaultdict(list)
-    for k, own in enumerate(numbers):
-        for number in own:
-            holders[number].append(k)
-    pairs = Counter(
-        pair for some in holders.values() for pair in (combinations(some, 2) if len(some) <= MANY else pairwise(some))
-    )
+    numbers = [set(row.unusual) for row in rows]
+    rounded = [set(map(_to_least_decimals, filter(_is_place, row.unusual))) for row in rows]
+    is_rounded = [all(number.endswith(ROUNDED_END) for number in row.unusual) for row in rows]
+    pairs = Counter({pair: n for pair, n in _pairs(numbers).items() if is_rounded[pair[0]] == is_rounded[pair[1]]})
+    pairs += Counter({pair: n for pair, n in _pairs(rounded).items() if is_rounded[pair[0]] != is_rounded[pair[1]]})
     linked = [
         (a, b)
         for (a, b), count in pairs.items()
@@ -192,12 +192,30 @@ def _sharing(rows: Sequence[ClassRow]) -> list[tuple[list[ClassRow], set[str]]]:
     groups: dict[int, list[int]] = defaultdict(list)
     for k, label in enumerate(connected_components(links, directed=False)[1].tolist()):
         groups[label].append(k)
-    shared = [(group, set.intersection(*(numbers[k] for k in group))) for group in groups.values() if len(group) > 1]
-    return [([rows[k] for k in group], some) for group, some in shared if some]
+    shared = []
+    for group in groups.values():
+        compared = rounded if len({is_rounded[k] for k in group}) > 1 else numbers
+        shared.append((group, set.intersection(*(compared[k] for k in group))))
+    return [([rows[k] for k in group], some) for group, some in shared if some and len(group) > 1]
+
+
+def _pairs(numbers: Sequence[set[str]]) -> Counter[tuple[int, int]]:
+    """How many numbers each two of the files have in common; of one in many files, only neighbours have it."""
+    holders: dict[str, list[int]] = defaultdict(list)
+    for k, own in enumerate(numbers):
+        for number in own:
+            holders[number].append(k)
+    every = holders.values()
+    return Counter(pair for some in every for pair in (combinations(some, 2) if len(some) <= MANY else pairwise(some)))
+
+
+def _is_place(number: str) -> bool:
+    """True for x and y: speeds are so near to one another that few decimals tell nothing."""
+    return not number.startswith("v ")
 
 
 def _to_least_decimals(number: str) -> str:
-    """A number as unusual_of() gives it, with the fewest decimals that are compared: one file may be a rounded copy."""
+    """A number as unusual_of() gives it, with the fewest decimals that are compared."""
     cell, _, value = number.rpartition(": ")
     with suppress(ValueError):
         return f"{cell}: {float(value):.{DECIMALS_LEAST}f}"

@@ -440,7 +440,7 @@ async function showSection(name) {
   const section = $(`#${name}`);
   const place = section.checkVisibility() ? section : $(INSTEAD[name]);
   place.scrollIntoView();
-  if (!(name in INSTEAD) || below) return;
+  if (below || !(name in INSTEAD || name === "grade")) return;
   await openBelow();
   place.scrollIntoView();
 }
