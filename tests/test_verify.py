@@ -16,11 +16,17 @@ from flint import arb, ctx, fmpz
 from core import Dance, Dragon, Line, Route, Spiral, first_contact
 from core.errors import ProofRefused
 from core.proof import chain, prove_collision_time, prove_minimum_pitch
-from core.proof.certificate import PRECISION
-from core.proof.paths import chain_on, recorded_path
-from core.proof.sweeps import proven_sweeps, searched_stretches
-from core.values import unheard
-from tests.campaigns.differential import MAKERS, fitted, hunt, made, proven_by_core, proven_by_second, second
+from core.proof.paths import recorded_path
+from tests.campaigns.differential import (
+    MAKERS,
+    fitted,
+    followed_to,
+    hunt,
+    made,
+    proven_by_core,
+    proven_by_second,
+    second,
+)
 from tests.conftest import ROOT
 from tests.core.paths.test_following import U_TURN
 from tests.core.proof.test_claims import OF_GRAZE
@@ -142,22 +148,14 @@ UNFOLLOWED = {
 def test_neither_checker_proves_that_a_bench_follows_where_it_cannot(name):
     """Both prove the way up to there, and neither a last stretch that is made up."""
     path, last = UNFOLLOWED[name]
-    claim = {"kind": "clear", "path": path, "head_speed": 1.0, "start": 5.0, "stop": last - NEAR_BEND, "until": "stop"}
-    bench = chain_on(Dragon(1), path, 0.0)
-
-    def sweeps(to):
-        with ctx.workprec(PRECISION):
-            high, low = -math.nextafter(5.0, 0.0), -math.nextafter(to, 99.0)
-            return proven_sweeps(bench, high, low, 0, searched_stretches(bench), unheard, follows=True)
-
-    content = made("two benches at a corner") | {"dragon": [[1, 3.41, 0.3, 0.275]], "claim": claim}
-    content["sweeps"] = sweeps(claim["stop"])
-    assert proven_by_second(fitted(content))[0]
+    certificate = followed_to(Dragon(1), path, 5.0, last - NEAR_BEND)
+    assert proven_by_second(certificate)[0]
     with pytest.raises(ProofRefused, match="not proven where handle 0 is at s = "):
-        sweeps(last + NEAR_BEND)
-    claim["stop"] = last + NEAR_BEND
-    content["sweeps"][0]["stretches"].append([content["sweeps"][0]["stretches"][-1][1], -claim["stop"], ""])
-    assert_verdict(fitted(content), "not proven")
+        followed_to(Dragon(1), path, 5.0, last + NEAR_BEND)
+    certificate["claim"]["stop"] = last + NEAR_BEND
+    end = stretches(certificate)[-1][1]
+    stretches(certificate).append([end, -last - 2.0 * NEAR_BEND, ""])
+    assert_verdict(fitted(certificate), "not proven")
 
 
 def half_turned(content):

@@ -123,7 +123,7 @@ def chain_on(dragon: Dragon, record: Record, margin: float) -> Chain | RouteChai
     if record["kind"] == "spiral":
         return Chain(dragon, arb(record["pitch"]), record["start_turns"], margin)
     if record["kind"] in ("turn", "free_turn"):
-        return RouteChain(dragon, (_turn_path if record["kind"] == "turn" else _free_turn_path)(record), margin)
+        return RouteChain(dragon, _turn_path(record), margin)
     placed = [_piece(piece) for piece in record["pieces"]]
     for (before, _, rotation), (after, _, then) in pairwise(placed):
         if type(before) is type(after) is Piece and before.curvature == after.curvature == 0:
@@ -133,43 +133,26 @@ def chain_on(dragon: Dragon, record: Record, margin: float) -> Chain | RouteChai
     return RouteChain(dragon, path, margin)
 
 
-# The arcs of a Turn: S = R sqrt(1 + theta^2) / theta. With T the direction of travel at the entry E and n to the right
-# of it, E . T = -R sin gamma and E . n = -R cos gamma, tan gamma = 1 / theta. From C1 = E + r1 n to C2 = -E - r2 n goes
-# -2 E - S n = R / cos gamma (sin 2 gamma T + cos 2 gamma n), and from C1 to E goes -n. A clockwise rotation by alpha
-# brings -n to sin alpha T - cos alpha n: alpha = pi - 2 gamma, on both arcs by symmetry.
-def _turn_path(record: Record) -> BallPath:
-    growth, radius = _growth(record), arb(record["entry_radius"])
-    theta = radius / growth
-    total, ratio = radius * (1 + theta**2).sqrt() / theta, arb(record["ratio"])
-    radii, angle = (total * ratio / (1 + ratio), total / (1 + ratio)), arb.pi() - 2 * (1 / theta).atan()
-    return _between_coils(record, (theta, theta), radii, (angle, angle))
-
-
-# With a free exit (core/paths/turn.py), as complex numbers: the place P(t) = growth t e^(it) of the coil inwards, its
+# The arcs of a turn, as complex numbers (core/paths/turn.py): the place P(t) = growth t e^(it) of the coil inwards, its
 # direction T = -e^(it) (1 + it) / sqrt(1 + t^2), its normal n = -i T. From C1 to the entry goes -n1, to the tangent
 # point w = (C2 - C1) / (r1 + r2), so the clockwise angle on the first arc is arg(-n1 / w); from C2 to the tangent point
 # goes -w, to the exit n2, so the other angle is arg(-n2 / w). Both are from 0 to 2 pi; refusing arcs of almost no
 # length (core/paths/turn.py) keeps them from the ends of that range.
-def _free_turn_path(record: Record) -> BallPath:
-    growth, ratio = _growth(record), arb(record["ratio"])
-    inner, outer = (arb(record[name]) / growth for name in ("entry_radius", "exit_radius"))
+def _turn_path(record: Record) -> BallPath:
+    growth, ratio, start = _growth(record), arb(record["ratio"]), _radians(record["start_turns"])
+    inner = arb(record["entry_radius"]) / growth
+    outer = arb(record["exit_radius"]) / growth if "exit_radius" in record else inner
     (entry, n1), (opposite, n2) = (_place_and_normal(growth, theta) for theta in (inner, outer))
     apart, both = entry + opposite, ratio * n1 + n2
     curved, level, squared = (1 + ratio) ** 2 - _squared(both), (apart * both.conjugate()).real, _squared(apart)
     root = (level**2 + curved * squared).sqrt()
     least = squared / (root - level) if level < 0 else (root + level) / curved
     towards = (-opposite - least * n2 - entry - ratio * least * n1) / ((1 + ratio) * least)
-    angles = _positive_angle(-n1 / towards), _positive_angle(-n2 / towards)
-    return _between_coils(record, (inner, outer), (ratio * least, least), angles)
-
-
-def _between_coils(
-    record: Record, thetas: tuple[arb, arb], radii: tuple[arb, arb], angles: tuple[arb, arb]
-) -> BallPath:
-    """A turn, in its own frame: thetas of the entry and the exit [rad], radii [m] and angles [rad] of its arcs."""
-    growth, start = _growth(record), _radians(record["start_turns"])
-    coils = BallCoil.between(growth, start, thetas[0]), BallCoil.between(growth, -thetas[1], -start)
-    arcs = (Piece(sign / radius, radius * angle) for sign, radius, angle in zip((-1, 1), radii, angles, strict=True))
+    arcs = [
+        Piece(sign / radius, radius * _positive_angle(-normal / towards))
+        for sign, radius, normal in ((-1, ratio * least, n1), (1, least, n2))
+    ]
+    coils = BallCoil.between(growth, start, inner), BallCoil.between(growth, -outer, -start)
     return BallPath((coils[0], *arcs, coils[1]), (1, arb(0)), acb(0), acb(1))
 
 

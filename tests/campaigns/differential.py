@@ -15,6 +15,8 @@ import random
 from functools import cache
 from pathlib import Path
 
+from flint import ctx
+
 from core import Arc, Coil, Dance, Dragon, Line, Route, Spiral, Turn, first_contact, minimum_pitch
 from core.errors import ProofRefused
 from core.proof import (
@@ -25,8 +27,12 @@ from core.proof import (
     prove_tolerance,
     verify,
 )
-from core.proof.certificate import digest
+from core.proof.certificate import PRECISION, digest
+from core.proof.paths import chain_on
+from core.proof.sweeps import proven_sweeps, searched_stretches
+from core.proof.words import runs
 from core.tolerance.tolerance import tolerance
+from core.values import unheard
 from tests.campaigns import hunting
 from tests.support.forgeries import places, through_json
 from tests.support.proof_routes import cornered, rounded
@@ -116,6 +122,18 @@ def fitted(content):
     """The content with a digest that fits it."""
     content = {name: value for name, value in content.items() if name != "digest"}
     return content | {"digest": digest(content)}
+
+
+def followed_to(dragon, path, start, stop):
+    """The certificate that one bench follows a path, as a certificate writes it, between two places of the head [m].
+
+    raises: ProofRefused if core/proof does not find its stretches
+    """
+    claim = {"kind": "clear", "path": path, "head_speed": 1.0, "start": start, "stop": stop, "until": "stop"}
+    chain, ways = chain_on(dragon, path, 0.0), (-math.nextafter(start, -math.inf), -math.nextafter(stop, math.inf))
+    with ctx.workprec(PRECISION):
+        sweeps = proven_sweeps(chain, *ways, 0, searched_stretches(chain), unheard, follows=True)
+    return fitted(made("two benches at a corner") | {"dragon": runs(dragon), "claim": claim, "sweeps": sweeps})
 
 
 def proven_by_core(certificate):

@@ -1,12 +1,17 @@
 """Random routes with bends of any radius: a bench is proven to follow just those on which small steps see it follow.
 
+Both verifiers of certificates prove this up to the place of a refusal, and not beyond.
+
 python -m tests.campaigns.hunt_bends [SEED [SECONDS [CASES]]]: 10,000 cases take 20 minutes.
 """
 
-from core import Dragon
+from core import Clothoid, Dragon, Waypoints
+from core.errors import ProofRefused
 from core.kernels.constants import REAR_COSINE_LEAST
 from core.paths.following import bends_widely, following
+from core.proof.paths import recorded_path
 from tests.campaigns import hunting
+from tests.campaigns.differential import followed_to, proven_by_second
 from tests.support.slow_follower import cosines_at, followed_slowly, twisted
 
 # Part by which u . T at the rear handle may differ from the limit, and u . T at the front handle from 0 [1]; how far
@@ -14,8 +19,8 @@ from tests.support.slow_follower import cosines_at, followed_slowly, twisted
 PART = 0.01
 FRONT = 0.005
 NEARER = 1e-4
-# How far beyond the place of a refusal the small steps look again [m].
-JUST = 1e-5
+# How far beyond the place of a refusal the small steps look again, and up to how near to it there are certificates [m].
+JUST, NEAR = 1e-5, 1e-3
 
 
 def judged(route, dragon):
@@ -23,6 +28,8 @@ def judged(route, dragon):
     if bends_widely(dragon, route):
         return "wide", ""
     proof = following(dragon, route)
+    if wrong := certified(route, dragon, proof.obstacles):
+        return "certified", wrong
     steps = followed_slowly(route, float(dragon.chords[0]))
     jumps = steps.jumps_at is not None
     if not proof.obstacles:
@@ -35,6 +42,27 @@ def judged(route, dragon):
     places = [proof.obstacles[0].s + beyond for beyond in (0.0, JUST)]
     true = any(fails(*cosines_at(route, float(dragon.chords[0]), s)) for s in places)
     return kind, "" if true else f"{proof}, but {steps}"
+
+
+def certified(route, dragon, obstacles):
+    """What is wrong with certificates of the ways before and beyond the first obstacle, '' for nothing."""
+    begin = route.begin + float(dragon.chords[0]) + NEAR
+    end = min((obstacle.s for obstacle in obstacles), default=route.end)
+    if end - NEAR <= begin or any(isinstance(piece, Clothoid | Waypoints) for piece in route.pieces):
+        return ""
+    path = recorded_path(route)
+    try:
+        certificate = followed_to(dragon, path, begin, end - NEAR)
+    except ProofRefused as refused:
+        return str(refused)
+    proven, words = proven_by_second(certificate)
+    if not proven or not obstacles:
+        return "" if proven else words
+    try:
+        followed_to(dragon, path, begin, end + NEAR)
+    except ProofRefused:
+        return ""
+    return f"certified beyond {obstacles}"
 
 
 def fails(rear_cosine, front_cosine):
