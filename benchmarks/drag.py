@@ -71,7 +71,11 @@ def measure(page: Page, base: str, square: str) -> list[tuple[list[float], list[
     settled(page)
     page.locator("#edit").click()
     settled(page)
-    return [page.evaluate(DRAG, MOVES) for _ in ROUNDS]
+    rounds = []
+    for _ in ROUNDS:
+        rounds.append(page.evaluate(DRAG, MOVES))
+        settled(page)
+    return rounds
 
 
 def quantiles(times: list[float]) -> str:

@@ -81,6 +81,20 @@ export function moved(drawing, item, k, point) {
   return withPoints(drawing, item, pointsOf(drawing, item).map((one, at) => (laps.includes(at) ? now : one)));
 }
 
+/** The drawing with a point a step further [m]; a gate whose border does not go that way comes to the next side there. */
+export function stepped(drawing, item, k, by) {
+  const point = pointsOf(drawing, item)[k];
+  const { width, height } = extent(drawing.things[item]?.kind === "gate" ? yardOf(drawing) : [point]);
+  for (let far = 0; far <= width + height; far++) {
+    const way = 1 + far / Math.hypot(...by);
+    const [x, y] = point.map((one, axis) => one + way * by[axis]);
+    const next = moved(drawing, item, k, [x, y]);
+    const now = pointsOf(next, item)[k];
+    if (!isSame(now, point) && Math.hypot(now[0] - x, now[1] - y) <= 1) return next;
+  }
+  return drawing;
+}
+
 /** The drawing with a leg made straight, or curved again. */
 export function bent(drawing, leg) {
   const { straight } = drawing;

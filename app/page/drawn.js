@@ -114,6 +114,7 @@ export class Drawn {
       if (report?.verdict === "passes") break;
     }
     this.steps.take(freed);
+    $("#canvas").focus({ preventScroll: true });
     announceStep(() => say("The figure is now a path of {count} points.", { count: placesOf(freed, null).size }));
   }
 

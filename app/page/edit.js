@@ -1,12 +1,12 @@
 /** Drawing on the picture: the points of one item are buttons to drag or to move by keys, and taps add points. */
 
-import { inserted, isFigure, left, moved, placesOf, pointsOf, shiftedAll, withPoints } from "./changes.js";
+import { inserted, isFigure, left, moved, placesOf, pointsOf, shiftedAll, stepped, withPoints } from "./changes.js";
 import { Chosen } from "./chosen.js";
 import { LANE_RADIUS, THINGS, freeName, isLine, place, yardOf } from "./drawing.js";
 import { $, $$, SMALL_TYPE, inType, make, onClick } from "./elements.js";
 import { Grips } from "./grips.js";
 import { helpOf } from "./helps.js";
-import { announce } from "./overlays.js";
+import { announce, announceStep } from "./overlays.js";
 import { crossesItself, extent, onBorder, rectangle } from "./square.js";
 import { say } from "./text.js";
 import { Start } from "./start.js";
@@ -119,6 +119,12 @@ export class Editor extends Chosen {
     if (changed !== (before ?? this.edited)) this.steps.change({ [part]: changed }, kind, before && { [part]: before });
   }
 
+  /** Choose nothing; keys go on at the picture, because what had the focus is gone. */
+  leave() {
+    super.leave();
+    if (document.activeElement === document.body || !document.activeElement.checkVisibility()) $("#canvas").focus({ preventScroll: true });
+  }
+
   /** Draw with this tool from now on; a new obstacle begins with the next tap. kit: what a tap puts ready-made, or null */
   take(tool, kit = null) {
     [this.tool, this.kit, this.measured] = [tool, kit, []];
@@ -221,7 +227,9 @@ export class Editor extends Chosen {
     const way = KEYS[event.key];
     const by = event.shiftKey ? FINE_STEP : STEP;
     if (way) {
-      this.steps.take(shiftedAll(this.drawing, this.items, way.map((one) => one * by)), `nudge ${this.items}`);
+      const far = way.map((one) => one * by);
+      const isGate = this.thing.kind === "gate" && !this.others.length;
+      this.steps.take(isGate ? stepped(this.drawing, this.item, 0, far) : shiftedAll(this.drawing, this.items, far), `nudge ${this.items}`);
       this.#tellPlace();
     } else if (event.key === "Delete" || event.key === "Backspace") this.remove();
     else return;
@@ -245,7 +253,9 @@ export class Editor extends Chosen {
   /** As many buttons as points, each with its name. */
   #fit() {
     const points = this.#points;
+    const held = /** @type {any} */ (document.activeElement);
     while (this.#knots.length > points.length) this.#knots.pop().remove();
+    if (held?.matches(".knot") && !held.isConnected) $("#canvas").focus({ preventScroll: true });
     while (this.#knots.length < points.length) this.box.append(this.#knot(this.#knots.length));
     this.#grips.show();
     this.#start.show();
@@ -416,10 +426,10 @@ export class Editor extends Chosen {
     const way = KEYS[event.key];
     if (way) {
       const by = event.shiftKey ? FINE_STEP : STEP;
-      const [x, y] = this.#points[k];
-      this.steps.take(moved(this.drawing, this.item, k, [x + by * way[0], y + by * way[1]]), `${this.item} ${k}`);
+      this.steps.take(stepped(this.drawing, this.item, k, way.map((one) => one * by)), `${this.item} ${k}`);
       this.#reveal(k);
     } else if (event.key.toLowerCase() === "n") return this.#next(event);
+    else if (this.#step(event.key)) $("#canvas").focus({ preventScroll: true });
     else if (event.key === "Enter") this.divide(k);
     else if (event.key === "Delete" || event.key === "Backspace") this.removePoint(k);
     else return;
@@ -560,6 +570,7 @@ export class Editor extends Chosen {
     [this.item, this.others] = [drawing.things.length, []];
     this.isDrawing = true;
     this.steps.take(withPoints({ ...drawing, things: [...others, thing] }, this.item, [point]));
+    if (others !== drawing.things) announceStep(() => say("The first gate is the way in now, and this one the way out: beside each of them you may change it."));
   }
 
   /** Add the ready-made thing with its middle at this point, and choose it. */

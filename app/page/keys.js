@@ -6,7 +6,7 @@ import { phrase, say } from "./text.js";
 
 /** Where the buttons lead: name -> the first of these places that is there, in the order of the work. @type {Record<string, [string, string]>} */
 const PLACES = {
-  path: [phrase("The size of the square"), "#place-width"],
+  path: [phrase("The size of the square"), "#place-shape"],
   tools: [phrase("Things in the square"), "#place [data-add], #tools [aria-pressed=true]:not(#edit)"],
   propose: [phrase("Propose a dance"), "#propose:enabled"],
   choose: [phrase("Choose one of the dances"), "#cards button:enabled"],

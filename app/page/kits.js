@@ -28,6 +28,7 @@ export function addKits(editor) {
     box.hidePopover();
     editor.turn(true);
     editor.take(kit.kind, kit.radius || kit.size ? kit : null);
+    $("#canvas").focus({ preventScroll: true });
   };
   const buttons = rows.map(({ kit, size }) => {
     const name = button({}, choose(kit));

@@ -251,8 +251,11 @@ export class Propose {
     const search = { began: performance.now(), share: 0, job: null, end: new AbortController() };
     this.note = null;
     [this.#search, this.#answer, this.#problem, this.#chosen] = [search, null, null, null];
+    const hasFocus = document.activeElement === this.ask;
     this.editor.turn(false); // it shows all, which asks again for an answer in another language
     this.changed();
+    // Keys go on where they were: at what can be done now.
+    if (hasFocus) this.stop.focus({ preventScroll: true });
     this.words.scrollIntoView({ block: "nearest" });
     pending(this.#looking, true);
     const clock = setInterval(() => this.show(), SECOND);
@@ -277,9 +280,11 @@ export class Propose {
       if (!this.#search || search === this.#search) pending(this.#looking, false);
     }
     this.#search = null;
+    const hadFocus = document.activeElement === this.stop;
     this.changed();
     // Without a path, the best dance is shown at once.
     if (this.next === "choose" && !isDrawn(this.#drawing) && !this.state.get("dances")) this.#choose(0);
+    if (hadFocus) (this.cards.querySelector("button") ?? this.ask).focus({ preventScroll: true });
     if (!this.#answer?.proposals.length) this.words.scrollIntoView({ block: "nearest" }); // a reason has more lines
   }
 

@@ -319,14 +319,15 @@ def test_a_figure_is_moved_sized_turned_and_mirrored_as_a_whole_until_it_is_free
     assert person.findings() == []
 
 
-def test_by_keys_alone_a_list_leads_on_and_things_are_drawn_chosen_moved_and_taken_back(open_page):
+def test_by_keys_alone_a_list_leads_on_and_a_square_is_drawn_changed_taken_back_and_danced_in(open_page):
     person = open_page("?door=village&path=route&benches=9").strikes("?")
     person.sees({"#keys .main": "Next: The size of the square"})
     assert person.findings() == []
-    person.strikes("Enter").page.keyboard.type("42")
+    person.strikes("Enter", "Tab").page.keyboard.type("42")
+    person.strikes("Tab").page.keyboard.type("24")
     # In a field for a number it is no character.
     person.strikes("Enter", "?").sees({"#keys .main": "Next: Propose a dance"}).strikes("Escape")
-    expect(person.at("#place-width")).to_be_focused()
+    expect(person.at("#place-height")).to_be_focused()
     tree = person.focuses("[data-add=circle]").strikes("Enter", "n", "Shift+ArrowUp").settles().address()["things"]
     x, y = (float(one.replace("!", ".")) for one in tree.partition("~c.tree.0!5.")[2].split(","))
     assert round(100 * y) % 10 in (1, 9)
@@ -337,7 +338,16 @@ def test_by_keys_alone_a_list_leads_on_and_things_are_drawn_chosen_moved_and_tak
     person.strikes("Shift+F10").sees({"#menu": ["Duplicate", "Delete"]}).strikes("Escape")
     person.strikes("ControlOrMeta+d", "Delete", "ControlOrMeta+z", "ControlOrMeta+z", "ControlOrMeta+z")
     assert person.settles().address()["things"] == tree
-    person.speaks("zh").strikes("?").sees({"#keys": ["下一步：设计一场舞龙", "按住 Shift 为 1 cm"]})
+    # A gate comes to the side across, where its own side does not go that way, and a second one says what each is.
+    person.focuses("[data-tool=gate]").strikes("Enter", "n", "ArrowUp", "ArrowDown", "n", "ArrowUp")
+    person.sees({"#status": "The first gate is the way in now"}).settles()
+    gates = person.address()["things"].split("~g.gate")[1:]
+    assert [re.fullmatch(r".*(in|out)\.[^,]*,(.*)", gate).groups() for gate in gates] == [("in", "-12"), ("out", "12")]
+    # Keys go on at what has been found.
+    person.strikes("Escape", "?").sees({"#keys .main": "Next: Propose a dance"}).strikes("Shift+Tab", "Tab", "Enter")
+    person.strikes("Enter").sees({"#cards button": 3})
+    expect(person.at("#cards button")).to_be_focused()
+    person.speaks("zh").strikes("?").sees({"#keys": ["下一步：结果", "按住 Shift 为 1 cm"]})
 
 
 def test_a_dragon_is_dragged_along_its_path_and_starts_there(open_page):
