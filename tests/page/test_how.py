@@ -209,7 +209,7 @@ def keeps_the_look(person, dance):
 def test_a_dark_phone_in_chinese_is_served(open_page):
     person = drawn(open_page("how", locale="zh-CN", color_scheme="dark", **PHONE)).reads({"h1": "原理"})
     person.at("#staircase .try >> nth=-1").tap()
-    person.sees({"#staircase .lead": "第16节龙身"})
+    person.sees({"#staircase .lead": "第16节龙身", "#proof .lead": "0.25 s"})
     assert not person.overflows(390)
     assert "undefined" not in person.text("body")
     assert person.findings() == []

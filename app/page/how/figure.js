@@ -31,7 +31,7 @@ export class Figure {
     this.section = section;
     this.plan = plan;
     this.service = service;
-    const dial = ([name, one]) => [name, new Dial({ ...one, unit: () => say(one.unit) }, () => {
+    const dial = ([name, one]) => [name, new Dial({ ...one, unit: () => (one.unit === "turns" ? say("turns") : one.unit) }, () => {
       changed();
       this.change();
     })];
