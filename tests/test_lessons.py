@@ -1,34 +1,19 @@
 """The lesson sheets of examples/lessons: one code in two languages, every cell runs, and their sentences are true."""
 
-import ast
 import re
 
 import pytest
 
 from tests.conftest import ROOT
 from tests.support.near import assert_near
+from tests.support.notebooks import cells, ran
 
 LESSONS = sorted((ROOT / "examples" / "lessons").glob("*.en.py"))
 NAMES = [path.name.removesuffix(".en.py") for path in LESSONS]
 
 
-def cells(path, kind):
-    import jupytext
-
-    notebook = jupytext.reads(path.read_text(encoding="utf-8"), fmt="py:percent")
-    return [cell.source for cell in notebook.cells if cell.cell_type == kind]
-
-
-def ran(name):
-    """Names after all cells ran in order; `answers` are the values of their last lines."""
-    names = {"__name__": "__main__"}
-    answers = []
-    for source in cells(ROOT / "examples" / "lessons" / f"{name}.en.py", "code"):
-        tree = ast.parse(source)
-        last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
-        exec(compile(tree, name, "exec"), names)
-        answers += [eval(compile(ast.Expression(last.value), name, "eval"), names)] if last else []
-    return names | {"answers": answers}
+def lesson_of(name):
+    return ran(ROOT / "examples" / "lessons" / f"{name}.en.py")
 
 
 @pytest.mark.parametrize("path", LESSONS, ids=NAMES)
@@ -44,7 +29,7 @@ def test_both_languages_have_the_same_code_between_words_of_their_own(path):
 
 
 def test_positions_and_speeds_of_ten_lines_are_those_of_the_library_and_a_length_for_a_chord_is_found():
-    lesson = ran("1_positions_and_speeds")
+    lesson = lesson_of("1_positions_and_speeds")
     assert lesson["apart"] < 1e-11  # "to eleven digits"
     assert lesson["furthest"] < 1e-11
     assert lesson["own"] == ("right", [])
@@ -55,7 +40,7 @@ def test_positions_and_speeds_of_ten_lines_are_those_of_the_library_and_a_length
 
 
 def test_a_look_once_a_second_misses_a_contact_that_a_step_which_is_a_proof_finds():
-    lesson = ran("2_first_contact")
+    lesson = lesson_of("2_first_contact")
     assert 0.0 < lesson["closer"].clearance.min() < 1e-3  # "less than a millimetre"
     assert lesson["first_seen"] - lesson["true"].time > 2.5  # "three seconds later"
     assert lesson["contact"].time - 1e-3 < lesson["time"] <= lesson["contact"].time
@@ -66,7 +51,7 @@ def test_a_look_once_a_second_misses_a_contact_that_a_step_which_is_a_proof_find
 
 
 def test_halving_for_a_radius_ends_beside_a_jump_and_the_grader_judges_the_pitches():
-    lesson = ran("3_smallest_pitch")
+    lesson = lesson_of("3_smallest_pitch")
     below = lesson["radius"](lesson["low"])
     above = lesson["radius"](lesson["high"])
     assert lesson["high"] - lesson["low"] < 1e-9

@@ -1,6 +1,5 @@
 """The notebook examples/tour.py: it converts, every cell runs, and its sentences are true."""
 
-import ast
 from types import SimpleNamespace
 
 import matplotlib.pyplot as plt
@@ -9,50 +8,31 @@ from matplotlib.axes import Axes
 
 from core.display import Readable
 from tests.conftest import ROOT
+from tests.support.notebooks import cells, ran
 
 TOUR = ROOT / "examples" / "tour.py"
 # Longest line of an answer under a cell [characters].
 DISPLAY_MOST = 220
 
 
-def display(source, names):
-    """Runs a cell; what a notebook shows under it: the value of its last line, if that is an expression."""
-    tree = ast.parse(source)
-    last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
-    exec(compile(tree, str(TOUR), "exec"), names)
-    return eval(compile(ast.Expression(last.value), str(TOUR), "eval"), names) if last else None
-
-
 @pytest.fixture(scope="module")
-def notebook():
-    import jupytext
-
-    return jupytext.reads(TOUR.read_text(encoding="utf-8"), fmt="py:percent")
-
-
-def sources(notebook, kind):
-    return [cell.source for cell in notebook.cells if cell.cell_type == kind]
-
-
-@pytest.fixture(scope="module")
-def tour(notebook):
+def tour():
     """Names after all cells ran in order; `answers` are what each one shows."""
-    names = {"__name__": "__main__"}
     before = plt.get_backend()
     plt.switch_backend("Agg")
-    names["answers"] = [display(source, names) for source in sources(notebook, "code")]
-    yield SimpleNamespace(**names)
+    yield SimpleNamespace(**ran(TOUR))
     plt.close("all")
     plt.switch_backend(before)
 
 
-def test_it_is_a_notebook_of_words_and_code(notebook):
+def test_it_is_a_notebook_of_words_and_code():
     import jupytext
 
-    words = sources(notebook, "markdown")
+    notebook = jupytext.read(TOUR, fmt="py:percent")
+    words = cells(TOUR, "markdown")
     assert words[0].startswith("# A dragon of benches")
     assert len(words) > 10
-    assert len(sources(notebook, "code")) > 10
+    assert len(cells(TOUR, "code")) > 10
     assert jupytext.reads(jupytext.writes(notebook, fmt="ipynb"), fmt="ipynb").cells[-1].source == words[-1]
 
 

@@ -39,8 +39,7 @@ STEP = 0.01  # [s]
 def benches(answer):
     times = np.arange(answer["start"], answer["stop"], STEP)
     motion = trajectory(STREET, times)
-    corners = bench_outlines(STREET.dragon, motion.position)
-    return times, motion, shapely.polygons(corners.reshape(-1, 4, 2)).reshape(corners.shape[:2])
+    return times, motion, shapely.polygons(bench_outlines(STREET.dragon, motion.position))
 
 
 def test_lanes_and_gates_are_those_of_small_steps_and_spectators_stand_as_far_back_as_asked(ask):
@@ -123,8 +122,7 @@ def test_several_dragons_have_one_sheet_whose_numbers_are_those_of_small_steps_o
         answer["start"], answer["stop"], 1 + 10 * round(0.1 * (answer["stop"] - answer["start"]) / STEP)
     )
     motions = trajectory(CROSSING, times)
-    corners = [bench_outlines(STREET.dragon, motion.position) for motion in motions]
-    blue, red = (shapely.polygons(one.reshape(-1, 4, 2)).reshape(one.shape[:2]) for one in corners)
+    blue, red = (shapely.polygons(bench_outlines(STREET.dragon, motion.position)) for motion in motions)
     swept, loose = (shapely.from_geojson(json.dumps(answer[name]["ground"])) for name in ("swept", "loose_tail"))
     passed = shapely.union_all(np.concatenate([one[::10].ravel() for one in (blue, red)]))
     assert shapely.contains(swept, passed)
