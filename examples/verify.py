@@ -1666,8 +1666,10 @@ def described(path):
         coils = f"spirals of pitch {path['pitch']!r} m and {path['start_turns']!r} turns"
         return f"on the turn of ratio {path['ratio']!r}, {entered}, between {coils}"
     if path.get("kind") == "route":
-        kinds = ", ".join(piece["kind"] for piece in path["pieces"])
-        return f"on the route of {kinds}, joined exactly, its s = 0 at {path['start']!r} m from its beginning"
+        pieces = [", ".join(f"{name} {value}" for name, value in piece.items()) for piece in path["pieces"]]
+        return (
+            f"on the route ({'; '.join(pieces)}), joined exactly, its s = 0 at {path['start']!r} m from its beginning"
+        )
     return f"on the spiral of pitch {path['pitch']!r} m inwards from {path['start_turns']!r} turns"
 
 

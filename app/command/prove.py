@@ -128,18 +128,23 @@ def check_or_prove(
     check: Annotated[
         Path | None, typer.Option(help="Verify this certificate without a search; - reads standard input.")
     ] = None,
+    dance: Annotated[
+        Path | None, typer.Option(help="The certificate to check must be about the dance of this file.")
+    ] = None,
 ) -> None:
     """Prove a contact, a clear run, a pitch or a stray in ball arithmetic, or check a proof (extra proof)."""
     if (check is None) == (context.invoked_subcommand is None):
         raise typer.BadParameter(say("give either a claim to prove or --check FILE"))
     if check is None:
+        if dance is not None:
+            raise typer.BadParameter(say("give --dance FILE with --check FILE"))
         return
     data = sys.stdin.buffer.read() if str(check) == "-" else check.read_bytes()
     try:
         certificate = json_of(data)
     except Unreadable as error:
         raise error.of("check", str(check)) from error
-    _print(_checked(certificate))
+    _print(_checked(certificate, None if dance is None else _read(dance)[1]))
 
 
 @prove.command()
@@ -251,8 +256,7 @@ def dance(
 ) -> None:
     """Prove that a dance, on any path but waypoints, is clear from start to stop or end, or prove its first contact."""
     checked_output("output", output, (".json",))
-    request = checked(DanceCheck, read_dance(file))
-    whole = request.to_dance(Settings().checked_benches_max)
+    request, whole = _read(file)
     for name in UNPROVEN:
         if getattr(request, name) is not None:
             print(say("The {part} is not part of the proof.", part=say(UNPROVEN[name])), file=sys.stderr)
@@ -268,6 +272,12 @@ def dance(
     start, stop = clock.steady(np.array([begin, until])).tolist()
     times = {"start": start, "stop": None if request.stop is None else stop, "margin": request.margin}
     _finish(_dance_proven(dance, times, every_pair), output)
+
+
+def _read(file: Path) -> tuple[DanceCheck, core.Dance]:
+    """The question of a file of check, and its dance."""
+    request = checked(DanceCheck, read_dance(file))
+    return request, request.to_dance(Settings().checked_benches_max)
 
 
 def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) -> dict[str, Any]:
@@ -294,11 +304,11 @@ def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) ->
         raise ProofRefused.in_words("start", words, a=a, b=b, margin=margin, start=at_start)
 
 
-def _checked(certificate: Any) -> Proof:
+def _checked(certificate: Any, dance: core.Dance | None = None) -> Proof:
     with _working("check") as progress:
         from core.proof import verify
 
-        return verify(certificate, progress=progress)
+        return verify(certificate, dance=None if dance is None else dance.steady, progress=progress)
 
 
 def _finish(certificate: dict[str, Any], output: Path) -> None:

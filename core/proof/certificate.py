@@ -14,6 +14,7 @@ from core.checks import checked_type
 from core.dance import Dance
 from core.dragon import BENCHES_MAX, Dragon
 from core.errors import InvalidValue, OutsideRun, ProofRefused
+from core.language import phrase
 from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim, refusing
 from core.proof.dances import DanceClearClaim, DanceContactClaim, last_stop
 from core.proof.members import CLAIMS, TEXT_MOST, refuse_malformed
@@ -27,6 +28,13 @@ from core.values import Progress, unheard
 FORMAT = "bench-dragon proof 1"
 # Working precision [bits]: the claims decide gaps of about 1e-12 m; 96 bits leave 1e-24 m after 1e5 handles.
 PRECISION = 96
+
+# What differs in the claim of a certificate about another dance.
+ANOTHER = {
+    "dragon": phrase("the certificate is about another dragon"),
+    "path": phrase("the certificate is about another path"),
+    "head_speed": phrase("the certificate is about another head speed"),
+}
 
 Certificate = dict[str, Any]
 AnyClaim = CollisionTimeClaim | MinimumPitchClaim | DanceClearClaim | DanceContactClaim | ToleranceClaim
@@ -228,9 +236,10 @@ def _values(claim: AnyClaim) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value or name not in ("margin", "shown")}
 
 
-def verify(certificate: Certificate, *, progress: Progress | None = None) -> Proof:
+def verify(certificate: Certificate, *, dance: Dance | None = None, progress: Progress | None = None) -> Proof:
     """The statement that a certificate proves, after every inequality in it was verified again, without a search.
 
+    dance: the certificate must be about its dragon, path and head speed; None: about any
     certificate: as made here, or read from JSON; the balls have the precision that it states, or PRECISION if that is
         more, because a proof holds whatever the precision with which it was made
     raises: ProofRefused if any member is changed, missing or unknown, or any step is not proven
@@ -247,6 +256,8 @@ def verify(certificate: Certificate, *, progress: Progress | None = None) -> Pro
     content = {name: value for name, value in certificate.items() if name != "digest"}
     if certificate["digest"] != digest(content):
         raise ProofRefused.in_words("digest", "the certificate was changed after it was made")
+    if dance is not None:
+        _refuse_another(content, _steady(dance))
     try:
         with ctx.workprec(max(PRECISION, certificate["precision"])), refusing("certificate"):
             return _verified(content, progress or unheard)
@@ -256,6 +267,19 @@ def verify(certificate: Certificate, *, progress: Progress | None = None) -> Pro
         renamed = error.with_field(place)
         words = f"the certificate is malformed: {renamed.template}"
         raise ProofRefused.in_words(place, words, got=renamed.got, reason=renamed.reason, **renamed.values) from error
+
+
+def _refuse_another(content: Certificate, dance: Dance) -> None:
+    """raises: ProofRefused for a certificate about another dragon, path or head speed"""
+    claim, path = content["claim"], recorded_path(dance.path)
+    same = {
+        "dragon": content["dragon"] == runs(dance.dragon),
+        "path": claim.get("path", {name: claim.get(name) for name in path} | {"kind": "spiral"}) == path,
+        "head_speed": claim.get("head_speed", dance.head_speed) == dance.head_speed,
+    }
+    for name, as_given in same.items():
+        if not as_given:
+            raise ProofRefused.in_words(f"claim.{name}", ANOTHER[name])
 
 
 def _verified(content: Certificate, progress: Progress) -> Proof:

@@ -129,6 +129,11 @@ def test_a_dance_around_a_bend_is_proven_and_the_second_verifier_agrees(radius, 
     file.write_text(BENT.format(x=x, y=y, radius=radius))
     words = "where every rear handle goes forwards, less than 87.44 degrees off its bench, and never jumps: no two"
     assert_proven(("dance", str(file)), words, tmp_path)
+    certificate = str(tmp_path / "claim.json")
+    assert words in said("prove", "--check", certificate, "--dance", str(file))
+    for same, other, part in (("dragon = {", "head_speed = 2\ndragon = {", "head speed"), ("20,", "20.5,", "path")):
+        (tmp_path / "other.toml").write_text(file.read_text().replace(same, other))
+        assert_wrong(f"--check {certificate} --dance {tmp_path}/other.toml", f"the certificate is about another {part}")
     proven, statement = proven_by_second(json.loads((tmp_path / "claim.json").read_text()))
     assert proven
     assert words in statement
@@ -164,6 +169,7 @@ def test_a_dance_along_waypoints_has_no_proof(tmp_path):
         "prove turn --start 5 --stop 2 -> stop ... start",
         "prove collision-time --margin -1 -> margin",
         "prove --check x collision-time -> give either a claim to prove or --check FILE",
+        "prove --dance x clear -> give --dance FILE with --check FILE",
         "prove --check nowhere.json -> nowhere.json: No such file",
         "prove --check - -> - is not JSON",
         "prove collision-time --output nowhere/proof.json -> --output ... folder",
