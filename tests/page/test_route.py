@@ -325,7 +325,9 @@ def test_by_keys_alone_a_list_leads_on_and_a_square_is_drawn_changed_taken_back_
     assert person.findings() == []
     person.strikes("Enter", "Tab")
     # In a field for a number it is no character.
-    person.types({"#place-width": "42", "#place-height": "24"}).strikes("?").sees({"#keys .main": "Next: Propose a dance"}).strikes("Escape")
+    person.types({"#place-width": "42", "#place-height": "24"}).strikes("?").sees(
+        {"#keys .main": "Next: Propose a dance"}
+    ).strikes("Escape")
     expect(person.at("#place-height")).to_be_focused()
     tree = person.focuses("[data-add=circle]").strikes("Enter", "n", "Shift+ArrowUp").settles().address()["things"]
     x, y = (float(one.replace("!", ".")) for one in tree.partition("~c.tree.0!5.")[2].split(","))
