@@ -62,7 +62,7 @@ def checked_count(name: str, value: object, low: int, high: int) -> int:
 def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> None:
     """Check the type of a value. raises: InvalidValue naming the parameter if the value is of none of the kinds"""
     if not isinstance(value, kinds):
-        words = " or ".join(map(with_article, kinds if isinstance(kinds, tuple) else (kinds,)))
+        words = with_article(*kinds) if isinstance(kinds, tuple) else with_article(kinds)
         raise InvalidValue(name, "must be {kinds}", got=Given(value), kinds=words)
 
 

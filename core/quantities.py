@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from numbers import Real
 from typing import Any, NamedTuple, Self
 
-from core.language import Listed, Phrases, say, say_clauses
+from core.language import Listed, Phrases, phrase, say, say_clauses
 
 # Units that are words, which each language has its own for.
 UNITS: Phrases = {"turns": "turns", "degrees": "degrees"}
@@ -72,10 +72,19 @@ class Given(NamedTuple):
     text: str = ""
 
     def __str__(self) -> str:
+        return str(self.in_words())
+
+    def said(self) -> str:
+        """The text in the language that is spoken."""
+        words = self.in_words()
+        return words.said() if isinstance(words, Clause) else words
+
+    def in_words(self) -> str:
+        """The text, a Clause where each language has its own."""
         if self.text:
             return self.text
         if isinstance(self.value, type):
-            return f"the class {self.value.__name__}"
+            return Clause(phrase("the class {kind}"), kind=Given(None, self.value.__name__))
         if not _is_plain(self.value):
             return with_article(type(self.value))
         text = repr(self.value)
@@ -94,9 +103,12 @@ def _is_plain(value: object) -> bool:
     return value is None or isinstance(value, (str, bytes, Real))
 
 
-def with_article(kind: type) -> str:
-    """A class in a sentence: "a Dance"."""
-    return f"{'an' if kind.__name__[0] in 'AEIOU' else 'a'} {kind.__name__}"
+def with_article(*kinds: type) -> Clause:
+    """Classes in a sentence: "a Dance or a Route"."""
+    kind, *others = kinds
+    template = phrase("an {kind}") if kind.__name__[0] in "AEIOU" else phrase("a {kind}")
+    words = Clause(template, kind=Given(None, kind.__name__))
+    return Clause(phrase("{one} or {other}"), one=words, other=with_article(*others)) if others else words
 
 
 class Clause(str):

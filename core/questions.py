@@ -33,7 +33,7 @@ LESS = {
 
 
 # The end of the sentence if a budget is stopped at no limit, see Budget.stop().
-STOPPED = "before it was stopped"
+STOPPED = phrase("before it was stopped")
 
 
 def too_much(budget: Budget, field: str, rule: str, got: Value, **values: Value) -> TooMuchWork:

@@ -2,19 +2,20 @@
 
 import pytest
 
-from core import Dragon
+from core import Dance, Dragon
 from core.errors import InvalidValue
-from core.quantities import Given, fill_template, format_bound, format_field, format_number
+from core.language import speaking
+from core.quantities import Given, fill_template, format_bound, format_field, format_number, with_article
 
 pytestmark = pytest.mark.uncompiled
 
 
-def test_an_object_that_a_caller_gave_is_named_by_its_kind():
-    assert [str(Given(value)) for value in (Dragon(), [Dragon()] * 2, Dragon)] == [
-        "a Dragon",
-        "a list",
-        "the class Dragon",
-    ]
+def test_an_object_that_a_caller_gave_is_named_by_its_kind_in_the_language_spoken():
+    values = [Given(Dragon()), Given([Dragon()] * 2), Given(Dragon)]
+    assert [str(value) for value in values] == ["a Dragon", "a list", "the class Dragon"]
+    with speaking("zh"):
+        message = InvalidValue("dance", "must be {kinds}", got=values[0], kinds=with_article(Dance, Dragon)).message
+    assert message == "dance 应为 Dance 对象或 Dragon 对象，现为 Dragon 对象"
 
 
 def test_what_a_caller_gave_may_hold_braces():
