@@ -293,6 +293,10 @@ class Dance(Readable):
             raise InvalidValue("stop", "must be after start ({start})", got=Quantity(until, "s"), start=after)
         return begin, until
 
+    def whole_span(self, start: float | None = None, stop: float | None = None) -> Interval:
+        """span() of a question about the whole dance, which starts at `begin` unless it gives a start [s]."""
+        return self.span(self.begin if start is None else start, stop)
+
     def _before_the_start(self, name: str, time: float) -> OutsideRun:
         rule, least = (
             "must be at least {least}, when the whole dragon is on the path",

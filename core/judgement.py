@@ -274,7 +274,7 @@ def _judged(
     if stop is not None and end.reason is EndReason.FOLD:
         stop = checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
         stop = None if stop >= end.time else stop
-    begin, until = dance.span(dance.begin if start is None else start, stop)
+    begin, until = dance.whole_span(start, stop)
     contact = first_contact(dance, margin=margin, stray=strayed, start=begin, stop=stop, budget=budget)
     least, touch = None, contact.time
     if contact.overlapping is not None and contact.time_bracket is not None:

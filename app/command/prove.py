@@ -267,7 +267,7 @@ def dance(
             speed=format_number(whole.head_speed),
         )
         print(words, file=sys.stderr)
-    begin, until = whole.span(whole.begin if request.start is None else request.start, request.stop)
+    begin, until = whole.whole_span(request.start, request.stop)
     dance, clock = whole.steady, whole.clock
     start, stop = clock.steady(np.array([begin, until])).tolist()
     times = {"start": start, "stop": None if request.stop is None else stop, "margin": request.margin}

@@ -112,7 +112,7 @@ class Failure(Answer, of=core.Failure, leave=()):
 
     @classmethod
     def of(cls, result: core.Failure, dragon: core.Dragon, start_clock: str | None, sentence: str = "") -> Self:
-        clock = None if start_clock is None else time_of_day(result.time, start_clock)
+        clock = _clock(result.time, start_clock)
         # A handle has the number of the bench behind it; the last handle is at the rear of the last bench.
         benches = [min(bench, dragon.benches - 1) for bench in result.benches]
         names = [dragon.names[bench] for bench in benches if dragon.names]
@@ -162,7 +162,7 @@ class Report(Answer, of=core.Report, leave=()):
             Failure.of(failure, dragon, clock, failure_words(failure, dragon, limits)) for failure in result.failures
         ]
         venue = None if result.venue is None else VenueClearance.from_result(result.venue, stray=result.venue.misplaced)
-        begins, ends = (None if clock is None else time_of_day(time, clock) for time in (result.start, result.stop))
+        begins, ends = _clock(result.start, clock), _clock(result.stop, clock)
         speed = result.highest_speed and HighestSpeed.from_result(
             result.highest_speed,
             sentences=[speed_words(result.highest_speed)],
@@ -208,7 +208,7 @@ class DragonFailure(Failure, of=core.PerformanceFailure):
             result,
             area=None,
             names=households if any(households) else [],
-            clock=None if clock is None else time_of_day(result.time, clock),
+            clock=_clock(result.time, clock),
             head=None,
             peak_speed=None,
             peak_time=None,
@@ -257,7 +257,7 @@ class PerformanceReport(Answer, of=core.PerformanceReport, leave=("performance",
         for report, part in zip(result.reports, parts, strict=True):
             zero = None if clock is None else clock_at_zero(clock, -part.delay)
             own.append(None if report is None else Report.of(report, request, terms, place, zero))
-        begins, ends = (None if clock is None else time_of_day(time, clock) for time in (result.start, result.stop))
+        begins, ends = _clock(result.start, clock), _clock(result.stop, clock)
         return cls.from_result(
             result,
             failures=[DragonFailure.in_performance(failure, performance, clock, limits) for failure in result.failures],
@@ -270,6 +270,11 @@ class PerformanceReport(Answer, of=core.PerformanceReport, leave=("performance",
             ends=ends,
             origin=place.origin,
         )
+
+
+def _clock(time: float, start_clock: str | None) -> str | None:
+    """The time of day at a time [s]; None if it is not known."""
+    return None if start_clock is None else time_of_day(time, start_clock)
 
 
 def limits_of(request: DanceCheck, venue: Venue | None) -> Limits:

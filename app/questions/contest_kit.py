@@ -11,7 +11,7 @@ from app.contest.kit import workbook_alone, zip_of
 from app.contest.solved import ContestRequest
 from app.files.film_spec import ENDINGS, LOOKS
 from app.files.tables import XLSX_TYPE
-from app.questions.films import SECONDS_PER_MEGAPIXEL
+from app.questions.films import SECONDS_PER_MEGAPIXEL, megapixels_of
 from app.wire.fields import Whole, check_limit, measure
 from app.wire.question import Question, Terms
 from core.kernels import Halted
@@ -106,7 +106,7 @@ def _overall(request: ContestKitRequest, terms: Terms) -> Callable[[str, float],
 def _megapixels(request: ContestKitRequest) -> dict[tuple[str, str], float]:
     """Millions of pixels of every film, by its name and its form."""
     forms = list(ENDINGS) if request.gif else list(ENDINGS)[:1]
-    sizes = {form: request.seconds * rate * height * height * 16 / 9 / 1e6 for form, (rate, height) in LOOKS.items()}
+    sizes = {form: megapixels_of(request.seconds, *look) for form, look in LOOKS.items()}
     return {(name, form): sizes[form] for name in FILMS for form in forms}
 
 

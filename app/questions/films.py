@@ -159,10 +159,15 @@ def _span_together(
 def _checked_size(request: FilmFields, terms: Terms, form: str) -> tuple[int, int]:
     """Frames a second, and height [pixels]. raises: TooLarge for a film with too many pixels"""
     rate, height = rate_and_height(request, form)
-    megapixels = round(request.seconds * rate * height * height * 16 / 9 / 1e6)
+    megapixels = round(megapixels_of(request.seconds, rate, height))
     most = terms.settings.film_megapixels_max
     check_limit("seconds", "millions of pixels must be at most {most} here", megapixels, most, "take fewer or smaller")
     return rate, height
+
+
+def megapixels_of(seconds: float, rate: int, height: int) -> float:
+    """Millions of pixels of all frames of a film."""
+    return seconds * rate * height * height * 16 / 9 / 1e6
 
 
 def rate_and_height(request: FilmFields, form: str) -> tuple[int, int]:
@@ -191,8 +196,7 @@ def span_of(request: FilmFields, dance: Dance, terms: Terms) -> tuple[float, flo
 
 
 def _cost(request: FilmFields, form: str = FORM) -> float:
-    rate, height = rate_and_height(request, form)
-    return request.seconds * rate * height * height * 16 / 9 / 1e6 * SECONDS_PER_MEGAPIXEL[form]
+    return megapixels_of(request.seconds, *rate_and_height(request, form)) * SECONDS_PER_MEGAPIXEL[form]
 
 
 MARKED = ListOption("marked", "Name or number of a bench that stands out; may be given several times.")

@@ -88,21 +88,29 @@ class PerformanceFields(Wire, strict=True):
 
     def to_performance(self, settings: Settings) -> Performance:
         """raises: TooLarge, InvalidValue"""
-        most = settings.performed_benches_max
-        check_limit(
-            "dances",
-            "benches of all dragons must be at most {most} here",
-            self.benches,
-            most,
-            "take fewer or shorter dragons",
-        )
-        return Performance([self._part(k, most) for k in range(len(self.dances))])
+        return performance_of(self.dances, settings)
 
-    def _part(self, k: int, most: int) -> Part:
-        try:
-            return self.dances[k].to_part(most)
-        except BenchDragonError as error:
-            raise reworded(error, self.dances[k]).renamed(lambda name: f"dances.{k}.{name}") from error
+
+def performance_of(dances: Sequence[PartBody], settings: Settings) -> Performance:
+    """raises: TooLarge, InvalidValue, named by their places in a body"""
+    most, benches = settings.performed_benches_max, sum(one.benches for one in dances)
+    rule = "benches of all dragons must be at most {most} here"
+    check_limit("dances", rule, benches, most, "take fewer or shorter dragons")
+    return Performance([_part(f"dances.{k}", one, most) for k, one in enumerate(dances)])
+
+
+def _part(place: str, body: PartBody, most: int) -> Part:
+    try:
+        return body.to_part(most)
+    except BenchDragonError as error:
+        raise reworded(error, body).renamed(lambda name: f"{place}.{name}") from error
+
+
+def placed(performance: Performance, request: VenueFields) -> tuple[Performance, Place]:
+    """A performance in the venue of a request, and the place of this. raises: InvalidValue"""
+    dragons = [part.dance.dragon for part in performance.parts]
+    place = request.to_place(max(dragons, key=lambda dragon: float(dragon.lengths.max())))
+    return replace(performance, venue=place.venue), place
 
 
 class PlacedPerformance(VenueFields, PerformanceFields, strict=True):
@@ -110,10 +118,7 @@ class PlacedPerformance(VenueFields, PerformanceFields, strict=True):
 
     def to_placed(self, settings: Settings) -> tuple[Performance, Place]:
         """The performance in its venue, and the place of this. raises: TooLarge, InvalidValue"""
-        performance = self.to_performance(settings)
-        dragons = [part.dance.dragon for part in performance.parts]
-        place = self.to_place(max(dragons, key=lambda dragon: float(dragon.lengths.max())))
-        return replace(performance, venue=place.venue), place
+        return placed(self.to_performance(settings), self)
 
 
 class SeveralDances(PathFields):
@@ -147,7 +152,7 @@ class SeveralDances(PathFields):
 
     def to_performance(self, settings: Settings) -> Performance:
         """The dances of several. raises: TooLarge, InvalidValue"""
-        return PerformanceFields.model_construct(dances=self.dances or []).to_performance(settings)
+        return performance_of(self.dances or [], settings)
 
 
 class SeveralFields(VenueFields, SeveralDances):
@@ -155,8 +160,7 @@ class SeveralFields(VenueFields, SeveralDances):
 
     def to_placed(self, settings: Settings) -> tuple[Performance, Place]:
         """Several dances in their venue, and the place of this. raises: TooLarge, InvalidValue"""
-        fields: dict[str, Any] = {"dances": self.dances, "venue": self.venue, "coordinates": self.coordinates}
-        return PlacedPerformance.model_construct(**fields).to_placed(settings)
+        return placed(self.to_performance(settings), self)
 
 
 class PerformanceSpan(Wire):

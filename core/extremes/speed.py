@@ -151,7 +151,7 @@ def highest_speed(
             raise InvalidValue("stop", f"must be given: {why}", **values)
         rule = "must be before {end}, when bench {bench} folds and speeds grow without bound"
         raise InvalidValue("stop", rule, got=Quantity(stop, "s"), **values)
-    begin, until = dance.span(dance.begin if start is None else start, stop)
+    begin, until = dance.whole_span(start, stop)
     search = ContactSearch(SearchInput(dance.dragon, dance.path, 0.0, whole=True), budget=budget)
     peaks = [_peak_of(search, period) for period in clock.periods(begin, until)]
     highest = max(peaks, key=lambda peak: peak.speed)
@@ -244,7 +244,7 @@ def first_excess(
     (14.13, 1)
     """
     limit = checked_limit(speed_limit)
-    begin, until = dance.span(dance.begin if start is None else start, stop)
+    begin, until = dance.whole_span(start, stop)
     sought = SearchInput(dance.dragon, dance.path, 0.0, timing=dance.clock.rounding(until), whole=True)
     search, undecided = ContactSearch(sought, budget=budget), None
     for period in dance.clock.periods(begin, until):

@@ -189,7 +189,7 @@ def envelope(
     (1, 7.2)
     """
     excess = checked_number("excess", excess, "m", EXCESS_MIN, EXCESS_MAX)
-    begin, until = dance.span(dance.begin if start is None else start, stop)
+    begin, until = dance.whole_span(start, stop)
     budget = (budget or Budget()).within(ENVELOPE_WORK)
     swept = tracks(dance, dance.clock.travel(begin), dance.clock.travel(until))
     budget.look()

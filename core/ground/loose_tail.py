@@ -118,7 +118,7 @@ def tail_reach(
     loose = checked_count("benches", benches, 1, dance.dragon.benches)
     excess = checked_number("excess", excess, "m", EXCESS_MIN, EXCESS_MAX)
     strayed = checked_stray(stray, dance.dragon)
-    begin, until = dance.span(dance.begin if start is None else start, stop)
+    begin, until = dance.whole_span(start, stop)
     budget = (budget or Budget()).within(TAIL_WORK)
     first = dance.dragon.benches - loose
     lows, highs, spares = stretches(dance, dance.clock.travel(begin), dance.clock.travel(until))

@@ -149,7 +149,7 @@ def stays(
     checked_type("area", area, Area)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     strayed = checked_stray(stray, dance.dragon)
-    begin, until = dance.span(dance.begin if start is None else start, stop)
+    begin, until = dance.whole_span(start, stop)
     budget = (budget or Budget()).within(STAYS_WORK)
     march = _March(dance, area, margin, strayed, (begin, until), budget)
     return Stays(area.name, tuple(march.stays()), begin, until)

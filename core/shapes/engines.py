@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from enum import StrEnum
 from itertools import chain
 from threading import Lock
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -272,7 +273,7 @@ def widest_place(
 
     whole = shapely.Polygon(rings[0], rings[1:])
     seen = whole if view is None else shapely.intersection(whole, shapely.box(*view))
-    free = shapely.difference(seen, shapely.union_all([shapely.Polygon(one[0], one[1:]) for one in others]))
+    free = shapely.difference(seen, _united(others))
     ground = whole if free.area == 0.0 else free
     left, low, right, high = ground.bounds
     tolerance = WIDEST * max(right - left, high - low)
@@ -348,21 +349,26 @@ def _union(parts: NDArray[np.object_], budget: Budget) -> object:
     return parts[0]
 
 
-def merged(grounds: Iterable[Polygons]) -> Polygons:
-    """Polygons that hold the ground of several together; those of a single one as they are."""
+def _united(polygons: Iterable[Sequence[Any]]) -> Any:
+    """The ground of polygons, each by its rings, in shapely's own form."""
     import shapely
 
+    return shapely.union_all([shapely.Polygon(rings[0], rings[1:]) for rings in polygons])
+
+
+def merged(grounds: Iterable[Polygons]) -> Polygons:
+    """Polygons that hold the ground of several together; those of a single one as they are."""
     first, *others = grounds
     if not others:
         return first
-    return _rings(shapely.union_all([shapely.Polygon(one[0], one[1:]) for some in (first, *others) for one in some]))
+    return _rings(_united(one for some in (first, *others) for one in some))
 
 
 def widened(polygons: Polygons, by: float) -> Polygons:
     """Polygons that hold all points within `by` of the given ones, and none further than GROWTH_MOST times that [m]."""
     import shapely
 
-    ground = shapely.union_all([shapely.Polygon(rings[0], rings[1:]) for rings in polygons])
+    ground = _united(polygons)
     return _rings(shapely.buffer(ground, ARC_GROWTH * by, quad_segs=ARC_CHORDS))
 
 
@@ -370,10 +376,7 @@ def holds_all(polygons: Polygons, others: Polygons) -> bool:
     """True if polygons hold all of others."""
     import shapely
 
-    ground, rest = (
-        shapely.union_all([shapely.Polygon(rings[0], rings[1:]) for rings in some]) for some in (polygons, others)
-    )
-    return bool(shapely.covers(ground, rest))
+    return bool(shapely.covers(_united(polygons), _united(others)))
 
 
 def thickened(line: Floats, radius: float) -> Polygons:
@@ -413,7 +416,7 @@ def free_width(polygons: Polygons, middle: Floats, width: float) -> float:
     around the line or along one of the lane's sides; 0 where they reach from side to side."""
     import shapely
 
-    ground = shapely.union_all([shapely.Polygon(rings[0], rings[1:]) for rings in polygons])
+    ground = _united(polygons)
     line, around, along = shapely.LineString(middle), 0.0, [0.0]
     lane = shapely.buffer(line, 0.5 * width, cap_style="flat", join_style="mitre")
     within = shapely.intersection(ground, lane)

@@ -146,7 +146,7 @@ def contact_probability(
     checked_type("model", model, Wobble)
     which, seed = _checked_samples(samples), _checked_seed(seed)
     check_sizes(dance, model)
-    begin, until = dance.span(dance.begin if start is None else start, stop)
+    begin, until = dance.whole_span(start, stop)
     widest = model.correlation_time / INSTANTS_PER_TIME if model.step is None else model.step
     count = math.ceil((until - begin) / widest) + 1
     if count > INSTANTS_MAX:

@@ -8,6 +8,7 @@ stray.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
@@ -105,26 +106,20 @@ class Tolerance(Readable):
     certificate: StrayProof
 
     def _line(self) -> str:
-        safe, touching = safe_words(self.stray), self.stray_bracket[1]
-        if touching is None or self.benches is None:
-            return safe
-        one, other = (say("bench {bench}", bench=bench) for bench in self.benches)
-        return touch_words(safe, touching, one, self.area if self.benches[1] is None else other, self.time)
+        return _stray_line(self, lambda k, bench: say("bench {bench}", bench=bench))
 
 
-def safe_words(stray: float) -> str:
-    """Which strays are safe [m]."""
-    return (
-        say("strays up to {stray} are safe", stray=display(stray, "m"))
-        if stray
-        else say("no stray is known to be safe")
-    )
-
-
-def touch_words(safe: str, stray: float, one: str, other: str | None, time: float | None) -> str:
-    """Who touches whom with a stray [m] at a time [s], after the words of safe_words()."""
-    values = {"safe": safe, "stray": display(stray, "m"), "time": display(time, "s")}
-    return say("{safe}; with {stray} {one} and {other} touch at {time}", one=one, other=other, **values)
+def _stray_line(found: Tolerance | PerformanceTolerance, bench_words: Callable[[int, int | None], str]) -> str:
+    """Which strays are safe, and who touches whom with a larger one. bench_words: of the first or second, 0 or 1"""
+    safe, touching = say("no stray is known to be safe"), found.stray_bracket[1]
+    if found.stray:
+        safe = say("strays up to {stray} are safe", stray=display(found.stray, "m"))
+    if touching is None or found.benches is None:
+        return safe
+    one, other = (bench_words(k, bench) for k, bench in enumerate(found.benches))
+    values = {"safe": safe, "stray": display(touching, "m"), "time": display(found.time, "s")}
+    second = found.area if found.benches[1] is None else other
+    return say("{safe}; with {stray} {one} and {other} touch at {time}", one=one, other=second, **values)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -171,15 +166,10 @@ class PerformanceTolerance(Readable):
     performance: Performance = field(repr=False, compare=False)
 
     def _line(self) -> str:
-        safe, touching = safe_words(self.stray), self.stray_bracket[1]
-        if touching is None or self.benches is None:
-            return safe
-        names = [self.performance.name_of(k) for k in self.dragons]
-        one, other = (
-            say("bench {bench} of {dragon}", bench=bench, dragon=name)
-            for bench, name in zip(self.benches, (names[0], names[-1]), strict=True)
-        )
-        return touch_words(safe, touching, one, self.area if self.benches[1] is None else other, self.time)
+        def words(k: int, bench: int | None) -> str:
+            return say("bench {bench} of {dragon}", bench=bench, dragon=self.performance.name_of(self.dragons[-k]))
+
+        return _stray_line(self, words)
 
 
 @question_about("performance", Performance, "how far people may stray was not found")
@@ -250,7 +240,7 @@ def tolerance(
     if venue is not None:
         checked_type("venue", venue, Venue)
     budget = budget or Budget()
-    begin, until = dance.span(dance.begin if start is None else start, stop)
+    begin, until = dance.whole_span(start, stop)
     most = 0.5 * float(dance.dragon.chords.min())
     least, limit = SafeStray(most, None, 0), None
     steps, independent, simple = 0, most, most
