@@ -173,13 +173,11 @@ class FilmPicture:
         for dance, own in zip(self.dances, places, strict=True):
             draw_dance(self.axes, dance.path, own, np.empty((0, 4, 2)))
         look: dict[str, Any] = {"transform": self.axes.transAxes, "zorder": 9, "parse_math": False, "va": "top"}
-        for k in range(min(len(places), LEGEND_MOST) if self.several else 0):
-            self.axes.text(0.015, NAME_AT - NAME_STEP * k, self.name_of(k), color=self.colours(k)[0], **look)
+        if self.several:
+            for k in range(min(len(places), LEGEND_MOST)):
+                name, colour = self.several.name_of(k), self.colours(k)[0]
+                self.axes.text(0.015, NAME_AT - NAME_STEP * k, name, color=colour, **look)
         return np.concatenate(places)
-
-    def name_of(self, dragon: int) -> str:
-        """Name of one of several dragons, or its number in words."""
-        return (self.several and self.several.parts[dragon].name) or say("dragon {k}", k=dragon)
 
     def colours(self, dragon: int) -> tuple[str, str, str, str]:
         """Colours of the head, of the body, of its edges, and of those of its numbers."""
@@ -255,7 +253,7 @@ class FilmPicture:
         dragons, (a, b) = self.spec.dragons or (0, 0), self.spec.touching
         words = say("benches {a} and {b} touch\n", a=a, b=b)
         if self.several:
-            dragon, second = map(self.name_of, dragons)
+            dragon, second = map(self.several.name_of, dragons)
             words = say(
                 "bench {bench} of {dragon} and bench {other} of {second} touch\n",
                 bench=a, dragon=dragon, other=b, second=second,

@@ -133,7 +133,7 @@ def _of_several(request: CuesRequest, terms: Terms, form: str) -> PerformanceCue
     parts = request.dances or []
     chosen = {k: request.benches_of(performance.parts[k].dance.dragon) for k in dragons_of(request.part, performance)}
     _refuse_many(sum(map(len, chosen.values())))
-    names = [part.name or say("dragon {k}", k=k) for k, part in enumerate(performance.parts)]
+    names = list(map(performance.name_of, range(len(performance.parts))))
     if request.labels and form == PDF_TYPE:
         decks_of = [(names[k], benches, performance.parts[k].dance.dragon, k) for k, benches in chosen.items()]
         return _labels(request, performance, decks_of, terms)
@@ -248,7 +248,7 @@ def _cards(
     from app.cards.cards import CardSheets, cards_pdf
     from app.files.typeset import face_for
 
-    title = request.title or say("Bench dragon")
+    title = request.heading
     areas = place.venue.areas if place.venue else ()
     names = [one for (own, name), _ in decks for one in (name, *own.dragon.names)]
     # The cards of one dragon name those of others.
@@ -275,7 +275,7 @@ def _labels(
 
     if not request.address:
         raise InvalidValue("address", "must be given for labels, whose codes lead to it")
-    title = request.title or say("Bench dragon")
+    title = request.heading
     face = face_for([title, *(one for name, _, dragon, _ in decks for one in (name, *dragon.names))])
     labels = [
         LabelDeck(say("{name}: {text}", name=title, text=name) if name else title, benches, dragon.names, number)

@@ -101,6 +101,11 @@ class GatedDance(Marked):
     paper: PaperSize = "A4"
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
 
+    @property
+    def heading(self) -> str:
+        """The title of the paper."""
+        return self.title or say("Bench dragon")
+
 
 class DancePlan(GatedDance):
     """A dance, as for /check, and the look of its plan."""
@@ -157,7 +162,7 @@ def _of_several(request: PlanRequest, terms: Terms) -> bytes:
     grounds = core.envelope(performance, start=start, stop=stop, excess=EXCESS, budget=budget)
     report = core.quick_check(performance, start=start, stop=stop, budget=budget, **request.to_limits())
     verdict = verdict_words(report, clock.words), report.verdict is Judgement.PASSES
-    names = [part.name or say("dragon {k}", k=k) for k, part in enumerate(performance.parts)]
+    names = list(map(performance.name_of, range(len(performance.parts))))
     common = _Common(request, place, verdict, _face(request, place, [one.dragon for one in dances], names), budget)
     times = say("times: minutes:seconds, from time 0 of the performance")
     plans = []
@@ -190,7 +195,7 @@ def _face(request: PlanRequest, place: Place, dragons: Sequence[core.Dragon], na
     from app.files.typeset import face_for
 
     areas = place.venue.areas if place.venue else ()
-    titles = [request.title or say("Bench dragon"), *names]
+    titles = [request.heading, *names]
     places = [*(one.name for one in request.gates), *(area.name for area in areas)]
     return face_for([*titles, *places, *(name for dragon in dragons for name in dragon.names)])
 
@@ -213,7 +218,7 @@ class _Common:
         """The title block. name: of the dragon, empty if it is the only one, or for all of them"""
         from app.plan.paper import Title
 
-        title = self.request.title or say("Bench dragon")
+        title = self.request.heading
         return Title(f"{title}: {name}" if name else title, facts, *self.verdict, self.geographic)
 
     def plan_of(

@@ -65,12 +65,12 @@ class SafeDelays(Answer, of=core.SafeDelays, leave=("performance",)):
     @classmethod
     def of(cls, result: core.SafeDelays, request: SafeDelayRequest) -> Self:
         first = result.safe[0][0] if result.safe else None
-        name = result.performance.parts[result.part].name
-        who = name or say("dragon {k}", k=result.part)
+        performance, k = result.performance, result.part
         span = {"least": format_number(result.least), "most": format_number(result.most)}
         template = NONE if first is None else AT_ONCE if first == result.least else FIRST
-        summary = say(template, name=who, delay=format_bound(first or 0.0, 1, up=True), **span)
-        return cls.from_result(result, name=name, first_safe=first, stray=request.total_stray, summary=summary)
+        summary = say(template, name=performance.name_of(k), delay=format_bound(first or 0.0, 1, up=True), **span)
+        own = {"name": performance.parts[k].name, "first_safe": first, "stray": request.total_stray}
+        return cls.from_result(result, **own, summary=summary)
 
 
 def safe_delay(request: SafeDelayRequest, terms: Terms) -> SafeDelays:

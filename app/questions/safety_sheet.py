@@ -316,7 +316,7 @@ class _Judged:
             )  # fmt: skip
         verdict, known = answer.sentences
         return SafetyWords(
-            title=request.title or say("Bench dragon"),
+            title=request.heading,
             subtitle=subtitle,
             verdict=answer.verdict.value,
             sentences=[verdict, joined([known, *cautions(answer, nobody_strays=not request.total_stray)])],
