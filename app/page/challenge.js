@@ -55,7 +55,8 @@ export class Challenge {
     const arrived = () => (answer.time === null ? say("✓ At {pitch} m the head gets to the circle, and nothing touches.", { pitch: at }) : say("✓ At {pitch} m the head gets to the circle. Two benches touch only after that, {inside} m farther in.", { pitch: at, inside: fixed(-far, 2) }));
     const inside = () => say("✕ At {pitch} m the head already begins inside the circle, so this does not count.", { pitch: at });
     const now = isInside ? inside() : gets ? arrived() : far > 0 ? say("✕ At {pitch} m two benches touch while the head is still {far} m outside the circle.", { pitch: at, far: fixed(far, 2) }) : "";
-    const record = best < Infinity ? say("Your tightest: {pitch} m.", { pitch: fixed(best, DECIMALS) }) : "";
+    const hint = far > 0 && !gets && !isInside ? say("A wider one gets there; then there is a card to share.") : "";
+    const record = best < Infinity ? say("Your tightest: {pitch} m.", { pitch: fixed(best, DECIMALS) }) : hint;
     this.words.textContent = sentencesOf([now, gets && best === pitch ? tightest || say("Tighter?") : record]);
     this.card.disabled = !gets || best !== pitch;
   }

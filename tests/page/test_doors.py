@@ -115,6 +115,7 @@ def test_who_just_looks_is_asked_for_the_tightest_spiral_and_gets_a_card_of_it(o
     inside = {"#challenge-words": "already begins inside the circle", "#challenge-card[disabled]": True}
     query = "?door=look&lang=en&pitch=0.5&start_turns=8&benches=60"
     assert "limit" not in open_page(query, failing=True).settles().sees(inside).text("#challenge-words")
+    person.opens("?door=look&lang=en&pitch=0.44").sees({"#challenge-words": "A wider one gets there"})
     # Several dragons are no game; one again has the start and the benches of before.
     person.opens("?door=look&lang=en&benches=100").settles().presses("#several", "[data-dragons=spiral]")
     person.settles().sees({"#challenge": False}).presses("#dragons-close").settles().sees({"#challenge": True})
