@@ -6,7 +6,7 @@ import { LANE_RADIUS, THINGS, freeName, isLine, place, yardOf } from "./drawing.
 import { $, $$, SMALL_TYPE, inType, make, onClick } from "./elements.js";
 import { Grips } from "./grips.js";
 import { helpOf } from "./helps.js";
-import { announce, announceStep } from "./overlays.js";
+import { announce } from "./overlays.js";
 import { crossesItself, extent, onBorder, rectangle } from "./square.js";
 import { say } from "./text.js";
 import { Start } from "./start.js";
@@ -570,7 +570,6 @@ export class Editor extends Chosen {
     [this.item, this.others] = [drawing.things.length, []];
     this.isDrawing = true;
     this.steps.take(withPoints({ ...drawing, things: [...others, thing] }, this.item, [point]));
-    if (others !== drawing.things) announceStep(() => say("The first gate is the way in now, and this one the way out: beside each of them you may change it."));
   }
 
   /** Add the ready-made thing with its middle at this point, and choose it. */

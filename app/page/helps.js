@@ -22,7 +22,10 @@ const HELPS = {
 const hasKeys = matchMedia("(pointer: fine)");
 
 /** What a tap draws with the tool. */
-export function helpOf({ kit, hasFigure, tool, state }) {
+export function helpOf({ kit, hasFigure, tool, state, drawing }) {
+  // Of two gates each has become a way; which one is said as long as gates are put.
+  const [enters, leaves] = ["in", "out"].map((use) => drawing.things.find((one) => tool === "gate" && one.use === use)?.name);
+  if (enters && leaves) return say("The dragon comes in at “{enters}” and goes out at “{leaves}”. Tap one of them to change that beside it.", { enters, leaves });
   const words = say(HELPS[kit ? "kit" : hasFigure ? "figure" : tool], { length: tool === "gate" ? streetLength(state) : "" });
   return hasKeys.matches && !["measure", "photo"].includes(tool) && !hasFigure ? `${words}${say(" Keys: N puts the next point, arrows move it by 0.1 m, with Shift by 1 cm, Enter inserts one, Delete removes it.")}` : words;
 }

@@ -88,6 +88,8 @@ export class Propose {
   /** What the cards show. */
   #drawn = null;
   #looking = Symbol("search");
+  /** True once a search took too long for one answer. */
+  #takesLong = false;
   /** True for a square that is one of the shapes. */
   #shaped = false;
 
@@ -320,10 +322,12 @@ export class Propose {
 
   /** The proposals, at once or, where that takes too long for one answer, by a job. */
   async #answerTo(body, search) {
+    // Once a search took too long, the next ones are jobs at once, so that nobody waits for both.
     try {
-      return await this.service.ask("proposals", "proposals", { body });
+      if (!this.#takesLong) return await this.service.ask("proposals", "proposals", { body });
     } catch (error) {
       if (!(error instanceof Problem) || error.problem.type !== TOO_LONG) throw error;
+      this.#takesLong = true;
     }
     let status = await this.service.ask("proposals", "proposals", { body, headers: { Prefer: "respond-async", ...bearer() } });
     search.job = status.jobID;

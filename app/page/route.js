@@ -205,13 +205,13 @@ export class RouteForm {
     put(row.name, name);
     put(row.radius, radius ?? "");
     put(row.heading, heading === null || heading === undefined ? "" : Number((heading / DEGREE).toFixed(1)));
-    if (row.heading.placeholder !== say("straight")) row.heading.placeholder = say("straight");
+    if (row.heading.placeholder !== say("auto")) row.heading.placeholder = say("auto");
     for (const part of [row.radius, row.unit]) hide(part, radius === undefined);
     for (const part of [row.angle, row.use, row.street]) hide(part, kind !== "gate");
     row.use.value = thing.use ?? "";
     row.sizes.forEach((field, axis) => {
       put(field, thing[STREET[axis]] ?? "");
-      if (field.placeholder !== say("as needed")) field.placeholder = say("as needed");
+      if (field.placeholder !== say("auto")) field.placeholder = say("auto");
     });
     row.at.forEach((field, axis) => put(field, points[0]?.[axis] ?? ""));
     hide(row.places, points.length !== 1);

@@ -341,7 +341,7 @@ def test_by_keys_alone_a_list_leads_on_and_a_square_is_drawn_changed_taken_back_
     assert person.settles().address()["things"] == tree
     # A gate comes to the side across, where its own side does not go that way, and a second one says what each is.
     person.focuses("[data-tool=gate]").strikes("Enter", "n", "ArrowUp", "ArrowDown", "n", "ArrowUp")
-    person.sees({"#status": "The first gate is the way in now"}).settles()
+    person.sees({"#draw-help": "The dragon comes in at “gate” and goes out at “gate 2”"}).settles()
     gates = person.address()["things"].split("~g.gate")[1:]
     assert [re.fullmatch(r".*(in|out)\.[^,]*,(.*)", gate).groups() for gate in gates] == [("in", "-12"), ("out", "12")]
     # Keys go on at what has been found.
