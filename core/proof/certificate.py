@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
-from flint import __FLINT_VERSION__, __version__, ctx
+from flint import __FLINT_VERSION__, __version__, arb, ctx
 
 from core.checks import checked_type
 from core.dance import Dance
@@ -20,7 +20,7 @@ from core.proof.dances import DanceClearClaim, DanceContactClaim, last_stop
 from core.proof.members import CLAIMS, TEXT_MOST, refuse_malformed
 from core.proof.paths import core_path, recorded_path
 from core.proof.strays import ToleranceClaim, recorded_pose
-from core.proof.sweeps import proven_sweeps, recorded_stretches, searched_stretches
+from core.proof.sweeps import AnyChain, SweepOverlap, proven_sweeps, recorded_stretches, searched_stretches
 from core.proof.words import runs
 from core.tolerance.exhibit import Exhibit
 from core.values import Progress, unheard
@@ -211,12 +211,21 @@ def _proven(
         chain = claim.chain
         overlap = pose or claim.find_overlap(lambda share: report(claim.search_share * share))
         claim.verify_overlap(overlap)
-        repeats_from = max(0, chain.count - 3) if every_pair else chain.repeats_from
+        each = max(0, chain.count - 3)
+        repeats_from = each if every_pair else chain.repeats_from
 
         def report_sweeps(share: float) -> None:
             report(1.0 - (1.0 - claim.search_share) * (1.0 - share))
 
-        sweeps = proven_sweeps(chain, *claim.way, repeats_from, searched_stretches(chain), report_sweeps, claim.follows)
+        def proven(first: int) -> list[dict[str, Any]]:
+            return proven_sweeps(chain, *claim.way, first, searched_stretches(chain), report_sweeps, claim.follows)
+
+        try:
+            sweeps = proven(repeats_from)
+        except SweepOverlap as met:  # in a short dance no bench may come there
+            if repeats_from == each or _comes_there(chain, claim.way, met):
+                raise
+            repeats_from, sweeps = each, proven(each)
     certificate = {
         "format": FORMAT,
         "versions": {"python-flint": __version__, "flint": __FLINT_VERSION__},
@@ -228,6 +237,15 @@ def _proven(
         "sweeps": sweeps,
     }
     return certificate | {"digest": digest(certificate)}
+
+
+def _comes_there(chain: AnyChain, way: tuple[float, float], met: SweepOverlap) -> bool:
+    """Whether two benches of the dance come to the places of an overlap. way: of the head, see Claim"""
+    before, after = (chain.pose_at(0, arb(place)) for place in way)
+    for pose in (before, after):
+        pose.grow_to(chain.count)
+    handles = range(chain.repeats_from, chain.count - (met.b - met.a))
+    return any(after.places[k] <= met.place <= before.places[k] for k in handles)
 
 
 def _values(claim: AnyClaim) -> dict[str, Any]:

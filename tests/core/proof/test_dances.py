@@ -8,6 +8,7 @@ from core import Dance, Dragon, Spiral, Turn, first_contact
 from core.contact.clearance import least_clearance
 from core.errors import OutsideRun, ProofRefused
 from core.proof import prove_clear, prove_collision_time, prove_contact, verify
+from tests.campaigns import hunt_corners
 from tests.campaigns.differential import made
 from tests.support.depth import thorough
 from tests.support.forgeries import OVER_BENDS, assert_refused, stretches, through_json
@@ -110,6 +111,14 @@ def test_a_route_is_clear_to_its_end():
     assert certificate["claim"]["stop"] == HAIRPIN.end
     assert "the route ends before" in verify(certificate).statement
     assert_refused(certificate, "claim.stop += -2e-9", "not shown to end")
+
+
+def test_a_contact_soon_after_the_start_is_proven_though_no_bench_has_come_to_some_places_ahead():
+    dance, *_ = hunt_corners.random_case(21, 62)
+    time = first_contact(dance, start=0.0).time
+    assert time is not None
+    statement = verify(prove_contact(dance, time, start=0.0)).statement
+    assert "benches 9 and 11 overlap at 0.345" in statement
 
 
 @pytest.mark.parametrize("name, change, reason", OVER_BENDS)
