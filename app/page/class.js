@@ -146,14 +146,14 @@ export const TYPED = { pitch: "question3", speed: "question5" };
 /** Columns of the service's table. */
 const [TEAM, FILE, WORKBOOK, VERDICT, POINTS, FINDING, TEAM_POINTS, ALIKE, POINTS_MOST, TEAM_MOST] = [0, 1, 2, 3, 6, 7, 10, 11, 12, 13];
 export const MARKS = { right: "✓", rounded: "✓", incomplete: "!", infeasible: "✕", wrong: "✕", unreadable: "✕" };
-/** Verdicts on a typed number that is the right one to fewer digits. */
-const ROUNDED = ["rounded", "infeasible"];
+/** Whether a typed number of two digits or more is the right one to its nearest digit, also where it breaks a limit by that. */
+const isNearest = ({ found, expected, digits }) => digits > 1 && Math.abs(found - expected) <= 0.51 * 10 ** (Math.floor(Math.log10(found)) - digits + 1);
 
 /** A row of the table for the service. found: what judge() gives */
 export async function rowOf({ file, team, name, text }, { answer, words = "" }) {
   const [graded, typed] = [answer?.files[0], answer?.answers[0]];
   const sum = (what) => (graded?.sheets ?? []).reduce((all, sheet) => all + sheet[what], 0);
-  const counts = typed ? { cells: 1, right: +(typed.verdict === "right"), rounded: +ROUNDED.includes(typed.verdict), missing: 0 } : { cells: sum("cells"), right: sum("right"), rounded: sum("rounded"), missing: sum("missing") };
+  const counts = typed ? { cells: 1, right: +(typed.verdict === "right"), rounded: +(typed.verdict !== "right" && isNearest(typed)), missing: 0 } : { cells: sum("cells"), right: sum("right"), rounded: sum("rounded"), missing: sum("missing") };
   const title = text ? (typed?.title ?? text) : (file?.name ?? name);
   const finding = graded?.finding ?? typed?.headline ?? words;
   return { team: (team || title).slice(0, 200), file: title.slice(-200), workbook: typed ? TYPED[name] : (graded?.workbook ?? null), verdict: (graded ?? typed)?.verdict ?? "unreadable", ...counts, finding: finding.slice(0, 1_000), unusual: graded?.unusual ?? [], digest: file ? await digestOf(file) : "" };
@@ -166,6 +166,8 @@ export class ClassTable {
   #rows = [];
   #language = "";
   #sorted = { column: 0, down: false };
+  /** The service's answer. @type {any} */
+  table = null;
 
   /**
    * show(k): shows what is said of file k
@@ -176,16 +178,28 @@ export class ClassTable {
     this.show = show;
   }
 
+  /** Number of its files. */
+  get size() {
+    return this.#rows.length;
+  }
+
+  /** Forget the class. */
+  clear() {
+    this.#rows = [];
+    this.box.replaceChildren();
+  }
+
   /** Show the files with the points of a rubric; one that is refused changes nothing. rows: as rowOf() gives them, in a language */
   async fill(rows, language = this.#language, rubric = this.#rubric) {
     const isNew = rows !== this.#rows;
     [this.#rows, this.#language] = [rows, language];
     try {
-      this.table = await this.#ask("class", { files: rows, rubric: rubric.text });
-      this.#rubric = rubric;
+      const table = await this.#ask("class", { files: rows, rubric: rubric.text });
+      if (rows !== this.#rows) return;
+      [this.table, this.#rubric] = [table, rubric];
       this.#draw();
     } catch (error) {
-      if (isNew) this.box.replaceChildren();
+      if (isNew) this.clear();
       announceRefusal(error);
     }
   }

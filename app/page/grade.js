@@ -16,6 +16,8 @@ const ANSWERS = {
 const COLOURS = { ".": "--line", o: "--undecided", "#": "--contact", "?": "--border" };
 const OUTCOMES = { right: "clear", rounded: "clear", incomplete: "undecided", infeasible: "contact", wrong: "contact", unreadable: "contact" };
 const CELL = 6;
+/** Number of files after which the table of a class is drawn anew. */
+const SOME = 5;
 /** Meaning of each mark of a picture. @type {Phrases} */
 const MEANINGS = { ".": "right", o: "rounded", "#": "wrong", "?": "missing" };
 export class Grader {
@@ -78,6 +80,7 @@ export class Grader {
     this.#files = await handedIn(given);
     this.#typed = [];
     this.#chosen = -1;
+    this.table.clear();
     this.#offer();
     if (!this.isClass) this.#takeTyped();
     this.#grade();
@@ -127,6 +130,9 @@ export class Grader {
       if (found.answer) one[language] = found;
       results.push(found.boxes);
       if (this.isClass) rows.push((found.row ??= await rowOf(one, found)));
+      // The table grows where there is none yet: one that is there stays whole until that of another language has come.
+      if (rows.length % SOME === 0 && this.table.size < rows.length) await this.table.fill([...rows], language);
+      if (this.#answers !== results) return;
       this.show();
     }
     if (rows.length) await this.table.fill(rows, language);

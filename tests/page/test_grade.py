@@ -129,21 +129,22 @@ def test_a_class_is_graded_from_an_archive_sorted_saved_and_two_equal_files_are_
     person.chooses({"#typed-team": "Gold"}).types({"#typed-pitch": "0.4504"}).sees(
         {f"{row_of('Gold')} td >> nth=0": "30 of 110", "#typed-collision_time": False}
     )
+    person.types({"#typed-speed": "2"}).sees({f"{row_of('Gold')} td >> nth=0": "30 of 120"})  # no rounding gives it
     rubric = person.saves("#grades .class .buttons button >> nth=2", "rubric.csv").decode("utf-8-sig")
     (tmp_path / "mine.csv").write_text(rubric.replace("result2,20", "result2,55"), encoding="utf-8")
     person.takes(tmp_path / "mine.csv", RUBRIC).sees(
-        {f"{row_of('Gold')} td >> nth=0": "65 of 145", "#grades .class .hint >> nth=1": "The rubric is mine.csv."}
+        {f"{row_of('Gold')} td >> nth=0": "65 of 155", "#grades .class .hint >> nth=1": "The rubric is mine.csv."}
     )
     (tmp_path / "typo.csv").write_text("rounded,o.5\n")
     person.takes(tmp_path / "typo.csv", RUBRIC).sees({"#status": "o.5"}).has(points, aria_sort="descending")
     # While the class is graded in another language, what is saved has the one of its table.
     held = person.holds_back("**/grade?*")
     person.at("[data-lang=zh]:visible").click()
-    person.sees({"#grades [role=status]": "8"})
+    person.sees({"#grades [role=status]": "9"})
     saved = person.saves("#grades .class .buttons button >> nth=1", "class.csv").decode()
     assert "what was found" in saved
     assert "班级" not in saved
     assert "发现" not in saved
     held.let_go()
-    person.sees({"#grades .class h3": "班级：6 个队，8 个文件", TEAMS: 6})
+    person.sees({"#grades .class h3": "班级：6 个队，9 个文件", TEAMS: 6})
     assert "发现" in person.saves("#grades .class .buttons button >> nth=1", "class.csv").decode()
