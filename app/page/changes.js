@@ -2,7 +2,11 @@
 
 import { EMPTY, freeName, isArea, place, yardOf } from "./drawing.js";
 import { extent, isInside, onBorder } from "./square.js";
+import { nearestLeg } from "./touch.js";
 import { roundedRoute } from "./walk.js";
+
+/** How far beside the border of a square a corner that divides it may lie [m]. */
+const BESIDE = 1;
 
 /** The edited item of a drawing: null for the path, else the number of a thing. */
 export const pointsOf = (drawing, item) => (item === null ? drawing.points : (drawing.things[item]?.points ?? []));
@@ -27,12 +31,24 @@ export function withPoints(drawing, item, points) {
   return isArea(drawing.things[item]) ? gated(changed, drawing.things[item].points) : changed;
 }
 
+/** The border of a square without its streets after one corner of the whole was moved, inserted or removed; null after any other change. before, now: corners of the whole */
+function followed(yard, before, now) {
+  const isOf = (ring, corner) => ring.some((one) => isSame(one, corner));
+  if (now.length === before.length) return yard.map((corner) => now[before.findIndex((one) => isSame(one, corner))] ?? corner);
+  const left = yard.filter((corner) => isOf(now, corner) || !isOf(before, corner));
+  if (now.length === before.length - 1) return left.length > 2 ? left : null;
+  if (now.length !== before.length + 1) return null;
+  const corner = now.find((one) => !isOf(before, one));
+  if (!corner) return yard;
+  const { k, far } = nearestLeg(yard, corner, true);
+  // One that divides the side of a street leaves the square as it is.
+  return far <= BESIDE ? yard.toSpliced(k, 0, corner) : yard;
+}
+
 /** The drawing with its gates moved to the border of a square that was changed. before: corners of the square then */
 function gated(drawing, before) {
   const now = yardOf({ ...drawing, yard: null });
-  // A corner that was moved is moved in the square without streets too; any other change leaves the streets to the square.
-  const isMoved = drawing.yard && now.length === before.length;
-  const yard = isMoved ? drawing.yard.map((corner) => now[before.findIndex(([x, y]) => x === corner[0] && y === corner[1])] ?? corner) : null;
+  const yard = drawing.yard && followed(drawing.yard, before, now);
   const ring = yard ?? now;
   const things = ring.length < 3 ? drawing.things : drawing.things.map((thing) => (thing.kind === "gate" ? { ...thing, points: [onBorder(ring, thing.points[0]).point] } : thing));
   return { ...drawing, yard, things };

@@ -132,6 +132,11 @@ test("gates stay on the border, straight into the square", () => {
   // A corner that is moved is moved in the square without streets too.
   const withStreet = { ...drawn, yard: YARD, things: [{ ...THINGS[0], points: [...YARD, [-30, 3]] }, THINGS[4]] };
   assert.deepEqual(changes.moved(withStreet, 0, 2, [14, 10]).yard[2], [14, 10]);
+  // A corner put into a side, or taken away, is one of the square without streets too; one in a street is not.
+  const middle = YARD[0].map((one, axis) => (one + YARD[1][axis]) / 2);
+  assert.deepEqual(changes.inserted(withStreet, 0, 1, middle).yard, [YARD[0], middle, ...YARD.slice(1)]);
+  assert.deepEqual(changes.removed(withStreet, 0, 1).yard, YARD.toSpliced(1, 1));
+  assert.deepEqual(changes.inserted(withStreet, 0, 5, [-28, 5]).yard, YARD);
 });
 
 test("an L, a T and a U lose what is cut out, and stay around their middle", () => {
