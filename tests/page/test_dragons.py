@@ -49,9 +49,7 @@ def test_a_second_dragon_comes_in_behind_the_first_or_the_page_says_what_can_be_
     # A tap on its head chooses the other one.
     path = file_of(person)["dances"][1]["path"]
     person.opens(f"?{urlencode(person.address() | {'view': '0,0,10', 'time': '0'})}").sees({"#dragons li": 2})
-    canvas = person.box("#canvas")
-    x = canvas["x"] + 0.5 * canvas["width"] + 10 * (path["points"][0][0] + path["start"])
-    person.settles().page.mouse.click(x, canvas["y"] + 0.5 * canvas["height"])
+    person.page.mouse.click(*person.settles().spot("#canvas", 10 * (path["points"][0][0] + path["start"])))
     person.has("#dragon-choose-1", aria_pressed="true").presses("#undo").has("#dragon-choose-0", aria_pressed="true")
     # A copy of the first one stands behind both.
     person.presses("#dragon-copy-0").sees({"#dragons li": 3, "#judgement": "Can be danced"}).settles()

@@ -210,10 +210,9 @@ def test_a_message_on_a_tablet_leaves_what_comes_next_and_a_tap_presses_nothing_
     assert person.ask(COVERED) == []
     person = open_page("?door=village&path=route", failing=True, **PHONE)
     person.at("#invite button").tap()
-    box = person.settles().box("#canvas")
-    for right, down in ((-80, 70), (0, 80)):
-        person.page.touchscreen.tap(box["x"] + box["width"] / 2 + right, box["y"] + box["height"] / 2 + down)
-        person.settles()
+    for away in ((-80, 70), (0, 80)):
+        person.page.touchscreen.tap(*person.settles().spot("#canvas", *away))
+    person.settles()
     assert person.ask("[document.activeElement.id, scrollY]") == ["canvas", 0]
 
 

@@ -37,8 +37,7 @@ def proposed(person):
 
 def tap_at(person, x, y):
     """A tap at a place in metres, in the view of SCALED."""
-    box = person.settles().box("#canvas")
-    person.page.mouse.click(box["x"] + box["width"] / 2 + SCALE * x, box["y"] + box["height"] / 2 - SCALE * y)
+    person.page.mouse.click(*person.settles().spot("#canvas", SCALE * x, -SCALE * y))
 
 
 def corners(person):
@@ -215,9 +214,7 @@ def _what_was_drawn_before_leaves_nothing(person):
 def _while_a_point_is_dragged_the_stretches_that_fail_are_coloured(person):
     person.opens(f"{YARD}&route=*-11,-8_11,-8&benches=3&stray=0.05").presses("#edit", "[data-tool=path]")
     before = person.settles().coloured("head")
-    knot = person.box(".knot >> nth=1")
-    x = knot["x"] + knot["width"] / 2
-    y = knot["y"] + knot["height"] / 2
+    x, y = person.spot(".knot >> nth=1")
     person.page.mouse.move(x, y)
     person.page.mouse.down()
     with person.page.expect_response("**/course") as answer:

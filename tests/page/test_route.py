@@ -142,8 +142,7 @@ def test_a_touch_takes_a_thing_whatever_the_tool_and_its_numbers_stand_beside_it
     before = points(person)
 
     def middle():
-        canvas = person.box("#canvas")
-        return canvas["x"] + 0.5 * canvas["width"], canvas["y"] + 0.5 * canvas["height"] - 30
+        return person.spot("#canvas", down=-30)
 
     def stage():
         return [
@@ -198,9 +197,8 @@ def test_a_photo_stays_behind_the_square_on_the_device_with_the_scale_of_a_measu
     person.takes(file("yard.png", yard.getvalue()), "#photo-file").sees({"#status": "stays on this device"}).settles()
     wide = person.coloured("#804020")
     assert wide > 1000
-    box = person.box("#canvas")
     for right in (-40, 40):
-        person.page.touchscreen.tap(box["x"] + 0.5 * box["width"] + right, box["y"] + 0.5 * box["height"])
+        person.page.touchscreen.tap(*person.spot("#canvas", right))
     person.sees({"#photo-size": True}).types({"#photo-metres": "200"}).sees({"#photo-size": False}).settles()
     assert person.presses("#show-all").settles().coloured("#804020") == pytest.approx(wide, rel=0.1)
     assert person.findings() == []
@@ -217,10 +215,9 @@ def _a_photo_is_moved_turned_and_sized_by_fingers_keys_and_numbers(person):
         return person.settles().ask("history.state.photo")
 
     before = place()
-    box = person.presses("#photo-move").sees({".grip:visible": 3, "#photo-moving": True}).box("#canvas")
+    x, y = person.presses("#photo-move").sees({".grip:visible": 3, "#photo-moving": True}).spot("#canvas")
     assert person.findings() == []
     expect(person.at(".grip.move")).to_be_focused()
-    x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]
     person.strikes("ArrowRight", "Shift+ArrowUp")
     steps = [place()]
     assert (steps[0]["x"] - before["x"], steps[0]["y"] - before["y"]) == pytest.approx((0.1, 0.01))
@@ -250,10 +247,8 @@ def _a_photo_is_moved_turned_and_sized_by_fingers_keys_and_numbers(person):
 
 def test_the_verdict_follows_the_hand_and_a_line_says_what_its_change_has_done(open_page):
     person = open_page(f"{S_CURVE}&things=c.elm.1.0,24&view=0,10,10").sees(YES).presses("#edit").settles()
-    canvas = person.box("#canvas")
     mouse = person.page.mouse
-    x = canvas["x"] + 0.5 * canvas["width"]
-    y = canvas["y"] + 0.5 * canvas["height"] - 140
+    x, y = person.spot("#canvas", down=-140)
     mouse.move(x, y)
     mouse.down()
     bodies = []
@@ -372,22 +367,15 @@ def test_a_dragon_is_dragged_along_its_path_and_starts_there(open_page):
     assert {**person.settles().address(), "time": "0"} == {**before, "time": "0"}
 
 
-def middle(person, selector):
-    """How far down the middle of an element is [px]."""
-    box = person.box(selector)
-    return box["y"] + 0.5 * box["height"]
-
-
 def test_a_touch_of_a_name_takes_its_thing_and_layers_are_hidden_and_shown_again(open_page):
     person = open_page(f"{S_CURVE}&things=c.elm.1.10,8&view=0,10,10", failing=True, **PHONE).sees({"#verdict": True})
-    box = person.presses("#edit").settles().box("#canvas")
-    x, y = box["x"] + 0.5 * box["width"] + 100, box["y"] + 0.5 * box["height"] + 20
+    x, y = person.presses("#edit").settles().spot("#canvas", 100, 20)
     person.page.touchscreen.tap(x + 24, y - 14)
     person.holds({"#beside input": "elm"}).presses("#beside button:has-text('✓')").settles()
     assert person.findings() == []
     tree = person.coloured("thing")
     person.presses("#layers").sees({"#shown": ["Dragons", "Photo or plan"]}).presses("#shown [name=things]")
-    assert abs(middle(person, "#shown [name=things]") - middle(person, "#shown label >> nth=0")) < 2
+    assert abs(person.spot("#shown [name=things]")[1] - person.spot("#shown label >> nth=0")[1]) < 2
     person.presses("#shown button:has-text('Close')").sees({"#shown": False}).settles()
     assert person.coloured("thing") == 0 < tree
     # What is hidden is not touched: there the path goes on.
@@ -401,11 +389,10 @@ def test_several_things_are_chosen_moved_brought_into_line_copied_and_removed_to
     trees = "c.well.1.20,22~c.elm.1.30,25~c.oak.1.33,28"
     person = open_page(f"{S_CURVE}&things=b.stage..-5,20_5,20_5,26_-5,26~{trees}&view=0,10,10").sees(YES)
     before = person.presses("#edit").settles().address()["things"]
-    canvas = person.box("#canvas")
     page = person.page
 
     def at(x, y):
-        return canvas["x"] + 0.5 * canvas["width"] + 10 * x, canvas["y"] + 0.5 * canvas["height"] - 10 * (y - 10)
+        return person.spot("#canvas", 10 * x, -10 * (y - 10))
 
     page.mouse.click(*at(20, 22))
     page.keyboard.down("Shift")
@@ -432,9 +419,8 @@ def test_several_things_are_chosen_moved_brought_into_line_copied_and_removed_to
 
 def test_a_long_press_opens_the_menu_of_a_point_on_a_phone(open_page):
     person = open_page(f"{S_CURVE}&view=0,10,10", **PHONE).sees({"#verdict": True}).presses("#edit").settles()
-    box = person.box(knot(5))
     finger = person.page.context.new_cdp_session(person.page)
-    place = {"x": box["x"] + 0.5 * box["width"], "y": box["y"] + 0.5 * box["height"]}
+    place = dict(zip("xy", person.spot(knot(5)), strict=True))
     finger.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [place]})
     person.sees({"#menu": ["Insert a point", "Delete point 6"]})
     finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
@@ -444,9 +430,8 @@ def test_a_long_press_opens_the_menu_of_a_point_on_a_phone(open_page):
 def test_a_finger_drags_points_and_trees_on_a_phone_and_nothing_is_cut_off(open_page):
     person = open_page(S_CURVE, locale="zh-CN", **PHONE).sees({VERDICT: "可以表演"}).presses("#edit").settles()
     before = points(person)
-    box = person.box(knot(2))
     # A finger that has begun to drag, however little, may rest: no menu opens.
-    person.swipes(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 0, -6, rest=LONG_PRESS)
+    person.swipes(*person.spot(knot(2)), 0, -6, rest=LONG_PRESS)
     assert points(person.sees({"#menu": False, "#verdict": "可以表演"}))[2][1] > before[2][1]
     assert not person.overflows(390)
     assert person.findings() == []
@@ -486,8 +471,7 @@ def _a_tree_goes_upwards_as_far_as_the_finger(person):
 
 def _a_stroke_draws_a_path_to_which_the_next_one_is_added(person):
     person.presses("#invite .main").settles()
-    canvas = person.box("#canvas")
-    x, y = (canvas[at] + canvas[size] / 2 for at, size in (("x", "width"), ("y", "height")))
+    x, y = person.spot("#canvas")
     person.swipes(x - 80, y, 120, -60)
     person.sees({".knot": 2}).swipes(x + 80, y, 0, 60)
     assert len(points(person.sees({".knot": 4}))) == 4

@@ -159,8 +159,7 @@ class Person:
 
     def drags(self, place, dx, dy):
         """Press the mouse on the middle of an element, move it by pixels, and release it."""
-        box = self.box(place)
-        return self.drags_from(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, dx, dy)
+        return self.drags_from(*self.spot(place), dx, dy)
 
     def drags_from(self, x, y, dx, dy):
         """The same from a place in the window."""
@@ -200,6 +199,11 @@ class Person:
 
     def box(self, place):
         return self.at(place).bounding_box()
+
+    def spot(self, place, right=0.0, down=0.0):
+        """A place in the window, by pixels from the middle of an element."""
+        box = self.box(place)
+        return box["x"] + 0.5 * box["width"] + right, box["y"] + 0.5 * box["height"] + down
 
     def style(self, place, name):
         return str(self.at(place).evaluate(f"one => getComputedStyle(one).{name}"))
