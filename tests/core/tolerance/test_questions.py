@@ -1,4 +1,4 @@
-"""Every question with a stray: known answers, messages, and no change by a stray of 0."""
+"""Every question with a stray: messages, the two sides of a tolerance, and no change by a stray of 0."""
 
 import pytest
 
@@ -19,17 +19,6 @@ from core import (
 from tests.core.contact.test_walls import CORNER, VENUE
 
 DANCE = Dance(Dragon(), Spiral())
-# Stray [m]; the minimum pitch [m] and the first contact [s] of a bound that is a little less sharp.
-KNOWN = [(0.01, 0.47173, 401.565), (0.02, 0.49313, 389.513), (0.05, 0.55741, 311.432)]
-
-
-@pytest.mark.parametrize("stray, pitch, time", KNOWN)
-def test_known_answers_with_a_stray(stray, pitch, time):
-    assert pitch - 4e-4 < minimum_pitch(Dragon(), stray=stray).pitch < pitch + 1e-5
-    contact = first_contact(DANCE, stray=stray)
-    assert time - 1e-3 < contact.time < time + 0.4
-    assert contact.time_bracket[1] - contact.time_bracket[0] < 1e-9
-    assert 2.0 * stray < contact.gap < 2.2 * stray
 
 
 def test_a_stray_above_the_tolerance_until_a_time_touches_just_before_it():
