@@ -16,10 +16,11 @@ from heapq import heappop, heappush
 
 import numpy as np
 
+from core.proposal.bent_ways import backwards, bent_ways
 from core.proposal.footprint import DENSE, SPAN, room_beside, standing
 from core.proposal.legs import DETOUR, LEG_WORK, STEP, LegFinder, points_along
 from core.proposal.walks import Pose, Step, dubins, length_of, long_enough, moved, way_through
-from core.values import Floats
+from core.values import Floats, Point
 
 # Distance of benches that are measured [m].
 BENCH_STEP = 0.3
@@ -32,6 +33,8 @@ LEADS, PARTS = (1.0, 0.5, 1.5, 0.0), 6
 GENTLE = 1.7
 # Places at which a stretch is left or entered, channels, and chains of channels that are looked at for one leg [1].
 PLACES_MOST, CHANNELS_NEAR, CHAINS_MOST = 10, 8, 24
+# Most corners of a way on the grid that becomes a bent way [1].
+CORNERS_MOST = 6
 # Work of one leg that is measured bench by bench, for each edge [1], see core/kernels/constants.py.
 BENCH_WORK = 60.0
 
@@ -57,7 +60,6 @@ class ChannelLegFinder(LegFinder):
 
     def free(self, begin: Pose, steps: Sequence[Step], radius: float, *, eased: bool = False) -> bool:
         """True if benches on these steps, and on a straight way before and behind, have room with margin and stray."""
-        reach = SPAN * self.needs.chord
         points, _ = points_along(begin, steps)
         self.budget.afford(LEG_WORK)
         least = self.needs.straight_side + self.needs.free
@@ -65,11 +67,15 @@ class ChannelLegFinder(LegFinder):
             return False
         if self.ground.clearance(points).min() < least:
             return False
+        return bool(self.rooms(begin, steps).min() >= self.needs.free + SPARE)
+
+    def rooms(self, begin: Pose, steps: Sequence[Step]) -> Floats:
+        """Room of benches on these steps, and on a straight way before and behind (N,) [m]."""
+        reach = SPAN * self.needs.chord
         points, s = points_along(moved(begin, (-reach, 0.0)), [(reach, 0.0), *steps, (self.needs.chord, 0.0)], DENSE)
         self.budget.afford(BENCH_WORK * len(self.ground.edges))
         fronts = np.linspace(reach, s[-1], max(2, math.ceil((s[-1] - reach) / BENCH_STEP)))
-        room = room_beside(self.ground, self.needs, *standing(s, points, fronts, self.needs.chord))
-        return bool(room.min() >= self.needs.free + SPARE)
+        return room_beside(self.ground, self.needs, *standing(s, points, fronts, self.needs.chord))
 
     def around(self, begin: Pose, end: Pose) -> list[Step] | None:
         """A leg around obstacles, or straight through channels and with bends between."""
@@ -78,11 +84,39 @@ class ChannelLegFinder(LegFinder):
         return self._ways[begin, end]
 
     def walk(self, begin: Pose, end: Pose) -> list[Step] | None:
-        """A leg around obstacles, or straight through channels and with bends between."""
-        return self.around(begin, end)
+        """A leg around obstacles, or straight through channels and with bends between, or a bent way."""
+        return self.around(begin, end) or self._bent_way(begin, end)
+
+    def _bent_way(self, begin: Pose, end: Pose) -> list[Step] | None:
+        """A bent way from gate to gate, looked for once for both directions; None if none has room."""
+        there, back = (begin[:2], end[:2]), (end[:2], begin[:2])
+        if there not in self._bent:
+            line = self._line(*there, self.needs.straight_side + self.needs.free)
+            found = None
+            if line is not None and len(line) <= CORNERS_MOST + 2:
+                ways = bent_ways((begin, end), line, self._outwards(line), self.needs, self.rooms)
+                found = next((steps for steps in ways if self.free(begin, steps, self.needs.tight)), None)
+            self._bent[there] = found
+            self._bent[back] = None if found is None else backwards(found)
+        return self._bent[there]
+
+    def _outwards(self, line: Floats) -> Floats:
+        """From each inner corner of a line to the edge outside its bend (N, 2), a chord at most [m]."""
+        ways = []
+        for a, b, c in zip(line[:-2], line[1:-1], line[2:], strict=True):
+            before, after = b - a, c - b
+            out = before / np.hypot(*before) - after / np.hypot(*after)
+            heading = math.atan2(out[1], out[0])
+            far = min(float(self._room_to(b[None], heading)[0]), self.needs.chord)
+            ways.append((far * math.cos(heading), far * math.sin(heading)))
+        return np.array(ways).reshape(-1, 2)
 
     @cached_property
     def _ways(self) -> dict[tuple[Pose, Pose], list[Step] | None]:
+        return {}
+
+    @cached_property
+    def _bent(self) -> dict[tuple[Point, Point], list[Step] | None]:
         return {}
 
     @cached_property

@@ -42,7 +42,7 @@ def standing(s: Floats, points: Floats, fronts: Floats, chord: float) -> tuple[F
 
 def room_beside(ground: FreeGround, needs: Needs, front: Floats, rear: Floats) -> Floats:
     """Distance of the longest and widest bench between handles (M, 2) from the nearest edge (M,) [m]: below 0 where a
-    corner is outside the free ground."""
+    corner is outside the free ground, or an end of an edge within the bench."""
     step = max(1, PAIRS_AT_ONCE // (4 * len(ground.edges)))
     parts = [_room(ground, needs, front[k : k + step], rear[k : k + step]) for k in range(0, len(front), step)]
     return np.concatenate(parts) if parts else np.empty(0)
@@ -58,6 +58,7 @@ def _room(ground: FreeGround, needs: Needs, front: Floats, rear: Floats) -> Floa
     apart = ground.edges[:, :2] - middle[:, None]
     beyond = np.abs((apart * ahead[:, None]).sum(axis=-1)) - length
     beside = np.abs((apart * side[:, None]).sum(axis=-1)) - width
-    of_ends = np.hypot(np.maximum(beyond, 0.0), np.maximum(beside, 0.0)).min(axis=1)
+    outside = np.hypot(np.maximum(beyond, 0.0), np.maximum(beside, 0.0))
+    of_ends = (outside + np.minimum(np.maximum(beyond, beside), 0.0)).min(axis=1)
     room: Floats = np.minimum(of_corners, of_ends)
     return room

@@ -225,7 +225,7 @@ def _too_narrow(search: Search, venue: Venue, figures: Sequence[Figure]) -> Reas
         widest, pair = max(widths)
         if widest < needs.least_width:
             return Reason(ReasonKind.WAY, tried, widest, needs.least_width, who=pair)
-    if 2.0 * search.ground.widest_circle[3] < needs.turning_width:
+    if Figure.PARADE not in figures and 2.0 * search.ground.widest_circle[3] < needs.turning_width:
         return _no_turn(search, _circle(search, venue))
     return None
 

@@ -214,6 +214,12 @@ def rooms(width):
     return ring, ((0, 8 + 0.5 * width), 0.0), ((52, 8 + 0.5 * width), math.pi)
 
 
+def lane(width, other):
+    """A lane with a right angle."""
+    ring = [(0, 0), (10 + other, 0), (10 + other, 12), (10, 12), (10, width), (0, width)]
+    return ring, ((0, 0.5 * width), 0.0), ((10 + 0.5 * other, 12), -0.5 * math.pi)
+
+
 YARD = [(0, 0), (24, 0), (24, 20), (0, 20)]
 STREETS = [(0, 3), (17, 3), (17, 20), (13, 20), (13, 7), (0, 7)]
 LOW_WEST = ((0, 10.1), 0.0)
@@ -231,6 +237,13 @@ WALKS = {
     "a turned bend of 0.9 m": (*bend(0.9, 0.9), 2.5),
     "a bend of 0.7 m and 1.3 m": (*bend(0.7, 1.3), 1.1),
     "rooms in a row": (*rooms(0.7), 0.4),
+    "a lane of 1.4 m and 1.8 m": (*lane(1.4, 1.8), 0.7),
+    "a jog in a lane": (
+        [(0, 0), (10, 0), (12, 2), (22, 2), (22, 3.6), (12, 3.6), (10, 1.6), (0, 1.6)],
+        ((0, 0.8), 0.0),
+        ((22, 2.8), math.pi),
+        2.0,
+    ),
 }
 
 
