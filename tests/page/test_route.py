@@ -177,6 +177,34 @@ def test_an_l_is_drawn_by_its_size_and_a_tap_puts_a_fountain_of_a_usual_size_the
     )
 
 
+@thorough
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_every_shape_of_a_square_and_every_ready_made_thing_comes_by_a_tap_and_can_be_changed(open_page, language):
+    person = open_page(f"?door=village&path=route&benches=9&lang={language}", **PHONE)
+    for shape in [one.get_attribute("value") for one in person.all("#place-shape option").all()]:
+        person.chooses({"#place-shape": shape}).settles().sees({"#place-wrong": False})
+        assert len(person.address()["things"].split("..")[1].split("_")) >= 4, shape
+    person.presses("[data-add=kits]")
+    for k in range(person.counts("#kits button")):
+        if not person.at("#kits").is_visible():
+            person.presses("#tools [data-tool=kits]")
+        kit = person.at(f"#kits button >> nth={k}")
+        name = kit.locator("[data-text]").inner_text()
+        kit.click()
+        box = person.settles().box("#canvas")
+        before = person.counts("#things li")
+        left = box["x"] + 0.5 * box["width"]
+        for right in (-30, 30):
+            person.page.touchscreen.tap(left + right, box["y"] + 0.5 * box["height"])
+        person.settles()
+        if k + 1 < person.counts("#kits button"):
+            assert person.counts("#things li") > before, name
+            assert person.at("#things li:last-child > input:first-of-type").input_value().startswith(name)
+        while person.counts("#things li") > before:
+            person.presses("#undo").settles()
+    assert person.findings() == []
+
+
 def test_a_photo_stays_behind_the_square_on_the_device_with_the_scale_of_a_measured_distance(open_page, tmp_path):
     person = open_page("?door=village&path=route&benches=9", **PHONE)
 
