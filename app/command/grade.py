@@ -139,7 +139,7 @@ def _teams(rows: Sequence[ClassRow], rubric: dict[str, float]) -> Iterator[Part]
     for team, value in team_points(rows, rubric):
         table.add(team, word("class_points_of", points=f"{value:g}", most=f"{most:g}"))
     yield table
-    yield scheme(rows, rubric)
+    yield scheme(rubric)
 
 
 def _graded(name: str, data: bytes) -> FileAnswer:

@@ -24,7 +24,7 @@ from app.grade.judged import DECIMALS_OF_CONTEST, Rating
 from app.grade.unusual import DECIMALS_LEAST
 from app.grade.words import word
 from core import InvalidValue
-from core.language import Listed, joined, say
+from core.language import Listed, say
 from core.quantities import Given
 
 # What a rubric may state: the points of each question, those of a typed number among them, and the share of them for
@@ -122,11 +122,10 @@ def team_most(rows: Sequence[ClassRow], rubric: dict[str, float]) -> float:
     return sum(value for name, value in rubric.items() if name != ROUNDED and (name not in TYPED or name in named))
 
 
-def scheme(rows: Sequence[ClassRow], rubric: dict[str, float]) -> str:
+def scheme(rubric: dict[str, float]) -> str:
     """The rubric in words."""
     points = str(Listed(f"{name} {value:g}" for name, value in rubric.items() if name != ROUNDED))
-    said = word("scheme", points=points, share=f"{rubric[ROUNDED]:g}")
-    return said if {row.workbook for row in rows}.issuperset(TYPED) else joined([said, word("scheme_typed")])
+    return word("scheme", points=points, share=f"{rubric[ROUNDED]:g}")
 
 
 def team_points(rows: Sequence[ClassRow], rubric: dict[str, float]) -> list[tuple[str, float]]:

@@ -159,7 +159,7 @@ class FileAnswer(Answer):
     headline: the verdict in words
     unusual: some wrong numbers that no common error gives, by which the files of a class are compared: x, y or v,
         instant, number of the handle, and value
-    finding: what was found, in a few words for a table; empty for a file that is right
+    finding: what was found, in a few words for a table; empty for a file that is right as it is asked for
     """
 
     file: str

@@ -56,7 +56,7 @@ class DrawnLayer(Answer):
     """A layer of a DXF or GeoJSON on which something is drawn that is read.
 
     name: its name
-    edges: edges of what is drawn on it, where trees and walls have those of outlines; a venue may have 2,000
+    edges: edges of what is drawn on it, where trees and walls have those of outlines; a venue may have 5,000
     """
 
     name: str

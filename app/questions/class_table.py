@@ -11,6 +11,7 @@ from pydantic import Field
 from app.files.tables import CSV_TYPE, XLSX_TYPE
 from app.files.workbooks import table_workbook
 from app.grade.class_table import (
+    TYPED,
     ClassRow,
     most_of,
     names_beside,
@@ -27,6 +28,7 @@ from app.grade.words import word
 from app.wire.fields import Answer, OneLine, Whole, Wire
 from app.wire.question import JSON, Question, Terms
 from app.wire.texts import text_to_cell
+from core.language import joined
 
 # Most files of a class, cells of one, unusual numbers of one, and characters of a rubric.
 FILES_MAX, CELLS_MAX, UNUSUAL_MAX, RUBRIC_MAX = 2_000, 1_000_000, 40, 10_000
@@ -136,7 +138,8 @@ def class_table(request: ClassTableRequest, terms: Terms, form: str) -> ClassTab
     if form == JSON:
         every: list[list[str | float]] = [[team, points] for team, points in teams.items()]
         said = [words for _, words in notes]
-        words = scheme(rows, rubric)
+        typed = {row.workbook for row in rows}.issuperset(TYPED)
+        words = scheme(rubric) if typed else joined([scheme(rubric), word("scheme_typed")])
         return ClassTable(heads=heads, rows=table, teams=every, notes=said, rubric=rubric_text(rubric), scheme=words)
     if form == XLSX_TYPE:
         return table_workbook(word("class_sheet"), heads, table)
