@@ -20,7 +20,7 @@ from itertools import combinations, pairwise
 
 import numpy as np
 
-from app.grade.judged import DECIMALS_OF_CONTEST, Rating
+from app.grade.judged import Rating
 from app.grade.unusual import DECIMALS_LEAST
 from app.grade.words import word
 from core import InvalidValue
@@ -35,8 +35,6 @@ DEFAULT = {"result1": 40.0, "result2": 20.0, "question3": 10.0, "result4": 40.0,
 POINTS_MAX, DECIMALS = 1000.0, 1
 # Fewest wrong numbers that two files share, and least share of those compared, so that it is pointed out.
 SHARED_LEAST, SHARED_SHARE = 3, 0.5
-# How numbers end that have the fewest decimals that are compared, of the six that are written.
-ROUNDED_END = "0" * (DECIMALS_OF_CONTEST - DECIMALS_LEAST)
 # Most files with one number of which all are compared with each other.
 MANY = 8
 # Most files that a remark names.
@@ -168,17 +166,24 @@ def _is_plain(row: ClassRow) -> bool:
 def _sharing(rows: Sequence[ClassRow]) -> list[tuple[list[ClassRow], set[str]]]:
     """Groups of files of several teams in which most of the numbers compared are the same wrong ones, with these.
 
-    A file in which all have the fewest decimals may be a rounded copy: with others it is compared to these decimals.
+    A file with fewer decimals than another may be a rounded copy of it: they are compared to the fewer decimals.
     Of a number in many files only neighbours are compared: who shares a table has its numbers in a row of neighbours.
     """
     from scipy.sparse import coo_array  # type: ignore[import-untyped]
     from scipy.sparse.csgraph import connected_components  # type: ignore[import-untyped]
 
     numbers = [set(row.unusual) for row in rows]
-    rounded = [set(map(_to_least_decimals, filter(_is_place, row.unusual))) for row in rows]
-    is_rounded = [all(number.endswith(ROUNDED_END) for number in row.unusual) for row in rows]
-    pairs = Counter({pair: n for pair, n in _pairs(numbers).items() if is_rounded[pair[0]] == is_rounded[pair[1]]})
-    pairs += Counter({pair: n for pair, n in _pairs(rounded).items() if is_rounded[pair[0]] != is_rounded[pair[1]]})
+    decimals = [max((DECIMALS_LEAST, *map(_decimals, row.unusual))) for row in rows]
+    rounded = {
+        count: [{_rounded(number, count) for number in some if _is_place(number)} for some in numbers]
+        for count in set(decimals)
+    }
+    pairs = Counter({pair: n for pair, n in _pairs(numbers).items() if decimals[pair[0]] == decimals[pair[1]]})
+    for count, some in rounded.items():
+        own = _pairs(some).items()
+        pairs += Counter(
+            {(a, b): n for (a, b), n in own if decimals[a] != decimals[b] and count == min(decimals[a], decimals[b])}
+        )
     linked = [
         (a, b)
         for (a, b), count in pairs.items()
@@ -193,7 +198,8 @@ def _sharing(rows: Sequence[ClassRow]) -> list[tuple[list[ClassRow], set[str]]]:
         groups[label].append(k)
     shared = []
     for group in groups.values():
-        compared = rounded if len({is_rounded[k] for k in group}) > 1 else numbers
+        fewest = min(decimals[k] for k in group)
+        compared = rounded[fewest] if len({decimals[k] for k in group}) > 1 else numbers
         shared.append((group, set.intersection(*(compared[k] for k in group))))
     return [([rows[k] for k in group], some) for group, some in shared if some and len(group) > 1]
 
@@ -213,11 +219,16 @@ def _is_place(number: str) -> bool:
     return not number.startswith("v ")
 
 
-def _to_least_decimals(number: str) -> str:
-    """A number as unusual_of() gives it, with the fewest decimals that are compared."""
+def _decimals(number: str) -> int:
+    """Decimals of a number as unusual_of() gives it, without zeros at the end."""
+    return len(number.rpartition(": ")[2].partition(".")[2].rstrip("0"))
+
+
+def _rounded(number: str, decimals: int) -> str:
+    """A number as unusual_of() gives it, with so many decimals."""
     cell, _, value = number.rpartition(": ")
     with suppress(ValueError):
-        return f"{cell}: {float(value):.{DECIMALS_LEAST}f}"
+        return f"{cell}: {float(value):.{decimals}f}"
     return number
 
 

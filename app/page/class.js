@@ -1,5 +1,6 @@
 /** A class: the files in folders and archives, each with its team, and the table of all, which a teacher sorts and saves. */
 
+import { Superseded } from "./api.js";
 import { button, download, make } from "./elements.js";
 import { announceRefusal } from "./overlays.js";
 import { announceSaved } from "./saved.js";
@@ -7,8 +8,16 @@ import { phrase, say, sentencesOf } from "./text.js";
 
 /** Endings of what is handed in, the wrong kinds included, for which the service has a sentence; and of archives. */
 const [HANDED_IN, ARCHIVE] = [/\.(xlsx|xlsm|xls|csv|png|jpe?g|pdf|docx?|numbers|et|ods)$/i, /\.zip$/i];
-/** Longest file that is unpacked, because the service reads none that is longer, and most of all together [bytes]; archives in one another. */
+/** Of these the service needs no more than how they begin. */
+const BEGINNING = /\.(png|jpe?g|pdf|doc)$/i;
+/** Longest file that is unpacked, because the service reads none that is longer, and most of a team [bytes]; archives in one another. */
 const [LONGEST, MOST, DEEPEST] = [20_000_001, 1e9, 2];
+/** Most files of a team, and of a class, as the service has it. */
+export const FILES_MOST = 2_000;
+/** Most names that a sentence lists. */
+const NAMED = 10;
+/** What stands in no line of plain text, or turns the direction of writing around. */
+const UNPRINTABLE = /[\p{Cc}\p{Cs}\p{Zl}\p{Zp}\p{Bidi_Control}\p{Noncharacter_Code_Point}]/gu;
 /** Signatures of a ZIP archive: the end of its list, and an entry of it. */
 const [END, ENTRY] = [0x06054b50, 0x02014b50];
 export const TYPES = { xlsx: "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet", csv: "text/csv" };
@@ -16,99 +25,143 @@ export const TYPES = { xlsx: "application/vnd.openxmlformats-officedocument.spre
 const EMPTY = phrase("The folder is empty: nothing was handed in.");
 const OTHER = phrase("Nothing that was handed in is a workbook or a table (.xlsx or .csv): {name}");
 const LOCKED = phrase("It was not unpacked: it is locked, broken, longer than 20 MB, or an archive in too many others.");
+const FULL = phrase("More than 1 GB or 2000 files were handed in together: what came after that was not unpacked.");
 
 /** Order of two numbers, or of two names in which numbers count. */
 export const compare = (a, b) => (typeof a === "number" ? a - b : a.localeCompare(b, undefined, { numeric: true }));
 
-const foldersOf = (path) => path.split("/").slice(0, -1);
+const foldersOf = (path) => path.split("/").slice(0, -1).filter(Boolean);
 const nameOf = (path) => path.split("/").filter(Boolean).at(-1);
+
+/** A name as one line of plain text, as the service takes it: what is none stands as \u and digits. range: of its characters, as for slice() */
+export function plain(name, ...range) {
+  const escaped = name.replace(UNPRINTABLE, (one) => `\\u${one.codePointAt(0).toString(16).padStart(4, "0")}`);
+  return [...escaped].slice(...range).join("");
+}
+
+/** True for what has a row of its own: a file, or one that was not unpacked. */
+const isGraded = ({ left }) => ![OTHER, EMPTY].includes(left);
+
+/** Number of folders that all paths share. */
+function sharedOf(/** @type {string[][]} */ [first = [], ...others]) {
+  const differs = first.findIndex((name, k) => others.some((one) => one[k] !== name));
+  return differs < 0 ? first.length : differs;
+}
+
+/** Paths of the files that are graded, and number of folders above those of the teams, of which a file beside them is none's. */
+function rootOf(found) {
+  const every = found.filter(isGraded).map(({ path }) => foldersOf(path)).filter(({ length }) => length);
+  const deep = every.filter(({ length }) => length > 1);
+  const graded = deep.length && sharedOf(every) ? deep : every;
+  return { graded, root: sharedOf(graded) };
+}
 
 /**
  * The files, each with its team: the first folder or archive that not all of them share, else that in which all lie, or the name without an ending; empty for a file that lies alone. A team of which nothing can be graded has one entry with the reason.
  * found: {path, file}, or {path, left} with the reason
  */
 function withTeams(found) {
-  const sharedOf = (/** @type {string[][]} */ [first = [], ...others]) => {
-    const differs = first.findIndex((name, k) => others.some((one) => one[k] !== name));
-    return differs < 0 ? first.length : differs;
-  };
-  const every = found.filter(({ left }) => left !== OTHER).map(({ path }) => foldersOf(path)).filter(({ length }) => length);
-  // A file beside the folders of the teams is no team's.
-  const deep = every.filter(({ length }) => length > 1);
-  const root = deep.length && sharedOf(every) ? sharedOf(deep) : sharedOf(every);
-  const entries = found.map(({ path, file, left }) => {
-    const folders = foldersOf(path);
-    const own = (folders[root] ?? (root > 1 ? folders[root - 1] : undefined))?.replace(ARCHIVE, "");
-    return { name: nameOf(path), file, left, isBeside: folders.length <= root, team: own ?? (folders.length ? nameOf(path).replace(/\.\w+$/, "") : "") };
+  const { graded, root: shared } = rootOf(found);
+  const others = found.filter((one) => !isGraded(one)).map(({ path }) => foldersOf(path)).filter(({ length }) => length && length >= shared);
+  // If one folder holds all that is graded, the folders beside it are those of the other teams.
+  const root = graded.every(({ length }) => length <= shared) ? sharedOf([...graded, ...others]) : shared;
+  const isDeeper = ({ length }) => length > root;
+  // Files that lie side by side are a team each, or one team's: the folders beside them hold something else.
+  const hasFolders = (graded.length ? graded : others).some(isDeeper);
+  const entries = found.map((one) => {
+    const folders = foldersOf(one.path);
+    const own = (folders[root] ?? (root > 1 || one.left === OTHER ? folders[root - 1] : undefined))?.replace(ARCHIVE, "");
+    const isTeam = hasFolders ? isDeeper(folders) : !graded.length;
+    return { ...one, name: plain(nameOf(one.path)), isTeam, team: plain(own ?? (folders.length ? nameOf(one.path).replace(/\.\w+$/, "") : "")) };
   });
-  const full = new Set(entries.filter(({ left }) => !left || left === LOCKED).map(({ team }) => team));
-  const lacking = new Map();
-  for (const one of entries.filter(({ team, left, isBeside }) => !full.has(team) && !(isBeside && left === OTHER))) {
-    const before = lacking.get(one.team);
-    lacking.set(one.team, before?.left === OTHER ? { ...before, name: `${before.name}, ${nameOf(one.name)}` } : one);
-  }
-  return [...entries.filter(({ left }) => !left || left === LOCKED), ...lacking.values()];
+  const full = new Set(entries.filter(isGraded).map(({ team }) => team));
+  const lacking = Map.groupBy(entries.filter(({ team, isTeam }) => isTeam && !full.has(team)), ({ team }) => team);
+  return [...entries.filter(isGraded), ...[...lacking.values()].map(named)];
+}
+
+/** One entry for those of a team of which nothing can be graded, with their names, of many the first ones. */
+function named(entries) {
+  const others = entries.filter(({ left }) => left === OTHER);
+  const more = others.length - NAMED;
+  const name = `${others.slice(0, NAMED).map((one) => one.name).join(", ")}${more > 0 ? ` … (+${more})` : ""}`;
+  return others.length ? { ...others[0], name } : entries[0];
 }
 
 const isHidden = (path) => path.split("/").some((part) => /^(\.|~\$|__MACOSX|Thumbs\.db)/i.test(part));
 const isEmpty = ({ path }, k, every) => path.endsWith("/") && !every.some((one) => one.path !== path && one.path.startsWith(path));
 
-/** The bytes of an entry of an archive; null for one that cannot be read, or is too long. room: {bytes} that are left */
-async function unpacked(data, method, room) {
+/** The bytes of an entry of an archive, or some at its beginning; null for one that cannot be read, or is too long. room: {bytes} that are left */
+async function unpacked(data, method, room, isBeginning) {
   const parts = [];
   const stream = method === 8 ? data.stream().pipeThrough(new DecompressionStream("deflate-raw")) : data.stream();
+  const reader = stream.getReader();
   let count = 0;
   try {
-    for (const reader = stream.getReader(); ; ) {
+    while (count <= LONGEST && room.bytes >= 0) {
       const { done, value } = await reader.read();
-      if (done) return new Blob(parts);
-      parts.push(value);
+      if (!done) parts.push(value);
+      if (done || isBeginning) return new Blob(parts);
       count += value.length;
       room.bytes -= value.length;
-      if (count > LONGEST || room.bytes < 0) return null;
     }
   } catch {
-    return null;
+    // Null says it.
+  } finally {
+    reader.cancel().catch(() => {});
   }
+  return null;
 }
 
-/** What is in a ZIP archive and in archives in it: {path, file}, {path, left} with the reason, or {path} of a folder. */
-async function unzipped(archive, path, room, depth = 1) {
+/** What is in a ZIP archive and in archives in it: {path, file}, {path, left} with the reason, or {path} of a folder. room: {bytes, files} that are left to a team; null: each folder has its own */
+async function unzipped(archive, path, room = null, depth = 1) {
   const view = new DataView(await archive.arrayBuffer());
+  const isThere = (at, size) => at + size <= view.byteLength;
   let end = view.byteLength - 22;
   while (end >= 0 && view.getUint32(end, true) !== END) end--;
-  if (end < 0) return [{ path, left: LOCKED }];
-  const found = [];
-  let at = view.getUint32(end + 16, true);
-  for (let left = view.getUint16(end + 10, true); left && at + 46 <= view.byteLength && view.getUint32(at, true) === ENTRY; left--) {
+  if (end < 0) return [{ path: `${path}/`, left: LOCKED }];
+  const [found, rooms] = [[], {}];
+  let [at, left] = [view.getUint32(end + 16, true), view.getUint16(end + 10, true)];
+  for (; left && isThere(at, 46) && view.getUint32(at, true) === ENTRY; left--) {
     const [flags, method, packed, name, extra, comment, local] = [view.getUint16(at + 8, true), view.getUint16(at + 10, true), view.getUint32(at + 20, true), view.getUint16(at + 28, true), view.getUint16(at + 30, true), view.getUint16(at + 32, true), view.getUint32(at + 42, true)];
+    if (!isThere(at + 46, name)) break;
     // Archives from Chinese versions of Windows have names in GB 18030.
     const inside = `${path}/${new TextDecoder(flags & 0x800 ? "utf-8" : "gb18030").decode(new Uint8Array(view.buffer, at + 46, name))}`;
     at += 46 + name + extra + comment;
     if (isHidden(inside)) continue;
+    const isArchive = ARCHIVE.test(inside);
     if (inside.endsWith("/")) found.push({ path: inside });
-    else if (!HANDED_IN.test(inside) && !ARCHIVE.test(inside)) found.push({ path: inside, left: OTHER });
+    else if (!HANDED_IN.test(inside) && !isArchive) found.push({ path: inside, left: OTHER });
     else {
-      const isRead = !(flags & 1) && [0, 8].includes(method) && local + 30 <= view.byteLength;
+      const own = room ?? (rooms[isArchive ? inside : foldersOf(inside).join("/")] ??= { bytes: MOST, files: FILES_MOST });
+      if (own.isFull) continue;
+      const isRead = !(flags & 1) && [0, 8].includes(method) && isThere(local, 30);
       const begin = isRead && local + 30 + view.getUint16(local + 26, true) + view.getUint16(local + 28, true);
-      const content = isRead && (await unpacked(archive.slice(begin, begin + packed), method, room));
-      if (!content || (ARCHIVE.test(inside) && depth >= DEEPEST)) found.push({ path: inside, left: LOCKED });
-      else if (ARCHIVE.test(inside)) found.push(...(await unzipped(content, inside, room, depth + 1)));
+      own.isFull = --own.files < 0;
+      const content = isRead && !own.isFull && (await unpacked(archive.slice(begin, begin + packed), method, own, BEGINNING.test(inside)));
+      own.isFull ||= own.bytes < 0;
+      const refused = own.isFull ? FULL : !content || (isArchive && depth >= DEEPEST) ? LOCKED : "";
+      if (refused) found.push({ path: isArchive ? `${inside}/` : inside, left: refused });
+      else if (isArchive) found.push(...(await unzipped(content, inside, own, depth + 1)));
       else found.push({ path: inside, file: new File([content], nameOf(inside)) });
     }
   }
+  // A list that ends before all that it states has lost some.
+  if (left) found.push({ path: `${path}/`, left: LOCKED });
   return found.length ? found : [{ path: `${path}/` }];
 }
 
 /** All files of what was chosen or dropped, each with its team: folders and archives are opened. given: {path, file}, or {path} of a folder */
 export async function handedIn(given) {
-  const [found, chosen, room] = [[], [], { bytes: MOST }];
+  const [found, chosen] = [[], []];
   const of = (entries) => withTeams(entries.flatMap((one, k, every) => (one.file || one.left ? [one] : isEmpty(one, k, every) ? [{ ...one, left: EMPTY }] : [])));
   const archives = given.filter(({ path }) => ARCHIVE.test(path) && !path.includes("/"));
   for (const { file, path } of given) {
     if (isHidden(path)) continue;
-    const inside = file && ARCHIVE.test(path) ? await unzipped(file, path, room) : [{ path, file, ...(file && path.includes("/") && !HANDED_IN.test(path) && { file: null, left: OTHER }) }];
-    const isTeam = archives.length > 1 && new Set(inside.map((one) => foldersOf(one.path).join("/"))).size === 1;
+    const isOpened = file && ARCHIVE.test(path);
+    const inside = isOpened ? await unzipped(file, path).catch(() => [{ path: `${path}/`, left: LOCKED }]) : [{ path, file, ...(file && path.includes("/") && !HANDED_IN.test(path) && { file: null, left: OTHER }) }];
+    const { graded, root } = rootOf(inside);
+    // Of several archives one with two folders of something to grade is a class, any other a team.
+    const isTeam = archives.length > 1 && new Set(graded.map((folders) => folders[root]).filter(Boolean)).size < 2;
     if (!archives.some((one) => one.file === file) || isTeam) chosen.push(...inside);
     else found.push(...of(inside));
   }
@@ -156,14 +209,18 @@ export async function rowOf({ file, team, name, text }, { answer, words = "" }) 
   const counts = typed ? { cells: 1, right: +(typed.verdict === "right"), rounded: +(typed.verdict !== "right" && isNearest(typed)), missing: 0 } : { cells: sum("cells"), right: sum("right"), rounded: sum("rounded"), missing: sum("missing") };
   const title = text ? (typed?.title ?? text) : (file?.name ?? name);
   const finding = graded?.finding ?? typed?.headline ?? words;
-  return { team: (team || title).slice(0, 200), file: title.slice(-200), workbook: typed ? TYPED[name] : (graded?.workbook ?? null), verdict: (graded ?? typed)?.verdict ?? "unreadable", ...counts, finding: finding.slice(0, 1_000), unusual: graded?.unusual ?? [], digest: file ? await digestOf(file) : "" };
+  return { team: plain(team || title, 0, 200), file: plain(title, -200), workbook: typed ? TYPED[name] : (graded?.workbook ?? null), verdict: (graded ?? typed)?.verdict ?? "unreadable", ...counts, finding: [...finding].slice(0, 1_000).join(""), unusual: graded?.unusual ?? [], digest: file ? await digestOf(file) : "" };
 }
 
 /** The table of a class: a row for each team. */
 export class ClassTable {
   box = make("div", { className: "class" });
   #rubric = { name: "", text: "" };
+  /** The rubric that the newest question has, which may be refused. */
+  #wanted = this.#rubric;
   #rows = [];
+  /** Those of the table that is shown. */
+  #shown = this.#rows;
   #language = "";
   #sorted = { column: 0, down: false };
   /** The service's answer. @type {any} */
@@ -185,21 +242,25 @@ export class ClassTable {
 
   /** Forget the class. */
   clear() {
-    this.#rows = [];
+    this.#rows = this.#shown = [];
     this.box.replaceChildren();
   }
 
-  /** Show the files with the points of a rubric; one that is refused changes nothing. rows: as rowOf() gives them, in a language */
-  async fill(rows, language = this.#language, rubric = this.#rubric) {
-    const isNew = rows !== this.#rows;
-    [this.#rows, this.#language] = [rows, language];
+  /** Show the files with the points of a rubric; one that is refused changes nothing, and of several questions the newest counts. rows: as rowOf() gives them, in a language */
+  async fill(rows, language = this.#language, rubric = this.#wanted) {
+    [this.#rows, this.#language, this.#wanted] = [rows, language, rubric];
     try {
       const table = await this.#ask("class", { files: rows, rubric: rubric.text });
       if (rows !== this.#rows) return;
-      [this.table, this.#rubric] = [table, rubric];
+      [this.table, this.#rubric, this.#shown] = [table, rubric, rows];
       this.#draw();
     } catch (error) {
-      if (isNew) this.clear();
+      if (!(error instanceof Superseded) && rows === this.#rows && rubric === this.#wanted) {
+        this.#wanted = this.#rubric;
+        // The refused rubric may have taken the place of a question about these files.
+        if (rows !== this.#shown && rubric !== this.#rubric) await this.fill(rows);
+        else if (rows !== this.#shown) this.clear();
+      }
       announceRefusal(error);
     }
   }
@@ -254,7 +315,8 @@ export class ClassTable {
     chosen.addEventListener("change", async () => {
       const [file] = chosen.files;
       chosen.value = "";
-      if (file) await this.fill(this.#rows, this.#language, { name: file.name, text: (await file.text()).replaceAll("\0", "") });
+      const text = file && (await file.text()).replaceAll("\0", "");
+      if (file && this.size) await this.fill(this.#rows, this.#language, { name: file.name, text });
     });
     const buttons = [...Object.keys(TYPES).map((form) => button({ textContent: say("Save as {form}", { form: form.toUpperCase() }) }, () => this.#save(form))), button({ textContent: say("Save the rubric, to edit it") }, () => this.#saveRubric()), button({ textContent: say("Use a rubric …") }, () => chosen.click())];
     const rubric = this.#rubric.name ? say("The rubric is {name}.", { name: this.#rubric.name }) : say("The rubric is the usual one.");

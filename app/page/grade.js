@@ -1,8 +1,9 @@
 /** The grader: dropped or chosen workbooks, and typed answers, each with the service's verdict. */
 
 import { Problem, Superseded } from "./api.js";
-import { ClassTable, MARKS, TYPED, chosenOf, compare, dropped, handedIn, rowOf } from "./class.js";
+import { ClassTable, FILES_MOST, MARKS, TYPED, chosenOf, compare, dropped, handedIn, plain, rowOf } from "./class.js";
 import { $, $$, bearer, hide, make, onClick } from "./elements.js";
+import { announce } from "./overlays.js";
 import { say } from "./text.js";
 
 /** Answers that may be typed. @type {Phrases} */
@@ -29,6 +30,8 @@ export class Grader {
   #working = "";
   /** The file of a class whose boxes are shown; -1: none. */
   #chosen = -1;
+  /** Number of times that something was chosen or cleared: what is read meanwhile is out of date. */
+  #turn = 0;
 
   /**
    * @param {Service} service
@@ -41,7 +44,7 @@ export class Grader {
     for (const name of ["dragover", "drop"]) drop.addEventListener(name, (event) => event.preventDefault());
     for (const name of ["dragenter", "dragover"]) drop.addEventListener(name, () => drop.classList.add("over"));
     for (const name of ["dragleave", "drop"]) drop.addEventListener(name, () => drop.classList.remove("over"));
-    drop.addEventListener("drop", async (event) => this.#take(await dropped(event.dataTransfer)));
+    drop.addEventListener("drop", (event) => this.#take(dropped(event.dataTransfer)));
     $("#typed").addEventListener("submit", (event) => {
       event.preventDefault();
       this.#takeTyped();
@@ -49,10 +52,8 @@ export class Grader {
     });
     onClick("#grade-clear", () => {
       for (const id of ["#files", "#folder"]) $(id).value = "";
-      this.#chosen = -1;
       $("#typed").reset();
-      [this.#files, this.#typed, this.#answers] = [[], [], []];
-      this.#offer();
+      this.#forget();
       this.#tell("");
     });
   }
@@ -76,11 +77,31 @@ export class Grader {
     this.show();
   }
 
-  async #take(given) {
-    this.#files = await handedIn(given);
-    this.#typed = [];
+  #forget() {
+    this.#turn++;
     this.#chosen = -1;
+    [this.#files, this.#typed, this.#answers] = [[], [], []];
     this.table.clear();
+    this.#offer();
+  }
+
+  /** Grade what was chosen or dropped, or the Promise of it, in place of all before. */
+  async #take(given) {
+    this.#forget();
+    const turn = this.#turn;
+    this.#tell(say("Unpacking the files …"));
+    let files = [];
+    try {
+      files = await handedIn(await given);
+    } catch {
+      announce(() => say("What was chosen cannot be read: choose it again."));
+    }
+    if (turn !== this.#turn) return;
+    if (files.length > FILES_MOST) {
+      announce(() => say("A class has at most {most} files, and these are {count}: choose some of its teams.", { most: FILES_MOST, count: files.length }));
+      files = [];
+    }
+    this.#files = files;
     this.#offer();
     if (!this.isClass) this.#takeTyped();
     this.#grade();
@@ -111,7 +132,7 @@ export class Grader {
   #open(k) {
     this.#chosen = k;
     this.show();
-    $("#grades .class + .answer").scrollIntoView({ block: "nearest" });
+    $("#grades .class + .answer")?.scrollIntoView({ block: "nearest" });
   }
 
   async #grade() {
@@ -154,7 +175,7 @@ export async function judge(service, channel, asked) {
   const refused = (words) => ({ words, boxes: [refusedBox(title, words)] });
   if (left) return refused(say(left, { name }));
   if (file?.size === 0) return refused(say("The file is empty."));
-  const query = file ? { name: file.name.slice(-200), language } : { [name]: text, language };
+  const query = file ? { name: plain(file.name, -200), language } : { [name]: text, language };
   try {
     const answer = await service.ask(channel, "grade", { query, file: file ?? new Blob(), headers: bearer() });
     return { answer, boxes: boxes(answer, team) };

@@ -97,6 +97,17 @@ def test_a_dropped_folder_is_a_class(open_page, files):
     assert person.texts(TEAMS) == ["Gold", "Red"]
 
 
+# The next file is read once it may be.
+SLOW = """() => {
+  const { arrayBuffer } = Blob.prototype;
+  const ready = new Promise((resolve) => (globalThis.read = resolve));
+  Blob.prototype.arrayBuffer = function () {
+    Blob.prototype.arrayBuffer = arrayBuffer;
+    return ready.then(() => this.arrayBuffer());
+  };
+}"""
+
+
 def test_a_class_is_graded_from_an_archive_sorted_saved_and_two_equal_files_are_pointed_out(open_page, files, tmp_path):
     inner, archive = tmp_path / "ours.zip", tmp_path / "class.zip"
     with ZipFile(inner, "w", ZIP_DEFLATED) as written:
@@ -110,6 +121,10 @@ def test_a_class_is_graded_from_an_archive_sorted_saved_and_two_equal_files_are_
         written.writestr("Grey/", b"")
         written.writestr("Pink/ours.rar", b"Rar!")
     person = open_page(f"{EASY}&door=contest", failing=True).presses("#to-grade").reaches_below()
+    person.ask(SLOW)
+    person.takes(archive, "#files").sees({"#grades [role=status]": "Unpacking the files"}).presses("#grade-clear")
+    person.sees({"#grades [role=status]": 0}).ask("() => read()")
+    person.sees({TEAMS: 0, "#grades [role=status]": 0})  # what was cleared does not come back
     person.takes(archive, "#files").sees({"#grades .class h3": "Class: 6 teams, 7 files", TEAMS: 6})
     person.sees({"#grades .class .hint >> nth=0": "红队/result2.xlsx, Gold/result2.xlsx"})
     assert person.texts(TEAMS)[:5] == ["Blue", "Gold", "Green", "Grey", "Pink"]
@@ -141,6 +156,7 @@ def test_a_class_is_graded_from_an_archive_sorted_saved_and_two_equal_files_are_
     held = person.holds_back("**/grade?*")
     person.at("[data-lang=zh]:visible").click()
     person.sees({"#grades [role=status]": "9"})
+    person.presses(f"{row_of('Blue')} button:has-text('screenshot.png')")  # nothing is said of it yet
     saved = person.saves("#grades .class .buttons button >> nth=1", "class.csv").decode()
     assert "what was found" in saved
     assert "班级" not in saved

@@ -135,9 +135,10 @@ def test_wrong_numbers_that_two_teams_share_are_counted_and_right_ones_accuse_no
     assert "Blue" not in remark
     assert "cop" not in remark
     assert alike([row(team, team) for team in ("Red", "Gold")]) == []
-    # One of two files is a copy of the other that was rounded to four decimals.
-    rounded = tuple(f"{number[:-2]}00" for number in others)
-    [remark] = alike(
-        [replace(row(*one), unusual=some) for one, some in ((("Red", "a"), others), (("Blue", "b"), rounded))]
-    )
-    assert "in 4 of the 4 cells" in remark
+    # One of two files is a copy of the other that was rounded to fewer decimals.
+    for decimals in (4, 5):
+        rounded = tuple(f"{cell}: {float(value):.{decimals}f}0" for cell, value in (one.split(": ") for one in others))
+        [remark] = alike(
+            [replace(row(*one), unusual=some) for one, some in ((("Red", "a"), others), (("Blue", "b"), rounded))]
+        )
+        assert "in 4 of the 4 cells" in remark
