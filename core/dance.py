@@ -28,7 +28,7 @@ from core.paths.following import bends_widely, earliest_travel
 from core.paths.refusal import refuse_tight_bends
 from core.paths.route import Route
 from core.paths.spiral import Spiral, end_theta
-from core.quantities import Given, Quantity, Value, bound, fill_template, quantities
+from core.quantities import Given, Quantity, Value, bound, fill_message, quantities
 from core.values import Floats, Interval
 
 # Length of the default table of whole seconds, as in the contest [s].
@@ -78,7 +78,7 @@ class RunEnd(Readable):
     @property
     def why(self) -> str:
         """The reason as a clause in words."""
-        return fill_template(self.template, self.values)
+        return fill_message(self.template, self.values)
 
     @property
     def template(self) -> str:

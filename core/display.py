@@ -43,14 +43,21 @@ ROWS: Phrases = {
     "bench a": "bench a", "bench b": "bench b", "dragon a": "dragon a", "dragon b": "dragon b", "piece": "piece",
     "velocity x": "velocity x", "velocity y": "velocity y",
     # Codes.
-    "both": "both", "in": "in", "out": "out",
-    "contact probability": "contact probability", "folds": "folds", "held": "held",
+    "in": "in", "out": "out",
+    "contact at start": "contact at start", "contact probability": "contact probability",
+    "folds": "folds", "held": "held",
     "least radius": "least radius", "left": "left", "loose tail": "loose tail", "meeting": "meeting",
     "no safe stray": "no safe stray", "outside": "outside", "pause": "pause", "safe stray": "safe stray",
     "separating axis": "separating axis", "swept ground": "swept ground", "unused": "unused",
 }  # fmt: skip
 # What a line of a docstring says of a field.
 ENTRY = re.compile(r"(?P<name>\w+): (?P<words>.*?)(?: \[(?P<unit>[^\]]*)\])?")
+
+
+class Name(str):
+    """The name of a row that a person gave, in no language."""
+
+    __slots__ = ()
 
 
 class Readable:
@@ -72,7 +79,7 @@ class Readable:
 
     def _body(self) -> str:
         """The rows of the table as HTML."""
-        rows = [(row_name(name), text) for name, text in self._rows() if text]
+        rows = [(name if isinstance(name, Name) else row_name(name), text) for name, text in self._rows() if text]
         return "".join(f"<tr>{ROW_HEAD}{_html(name)}</th>{_td(text)}</tr>" for name, text in rows)
 
     def _line(self) -> str:
@@ -299,6 +306,8 @@ def _entry(value: object, digits: int) -> str:
         return say("yes") if value else say("no")
     if isinstance(value, Enum):
         text = str(getattr(value, "words", value.value)).replace("_", " ")
+        if text == "both":
+            return sense("gate", "both")
         return sense("side", "right") if text == "right" else say(text)
     if isinstance(value, dict):
         return ", ".join(f"{_entry(name, digits)} {display(one, '', digits)}" for name, one in value.items())

@@ -15,7 +15,7 @@ import numpy as np
 
 from core.checks import checked_list, checked_number, checked_type
 from core.dance import Dance, EndReason, whole_seconds
-from core.display import ROWS_MOST, Readable, display, format_range
+from core.display import ROWS_MOST, Name, Readable, display, format_range
 from core.dragon import Stray, checked_stray
 from core.errors import InvalidValue, OutsideRun
 from core.language import counted, say
@@ -190,7 +190,9 @@ class Performance(Readable):
         return [way for part in self.parts for way in part._drawn_lines()]
 
     def _rows(self) -> list[tuple[str, str]]:
-        parts = [(self.name_of(k), part._line()) for k, part in enumerate(self.parts[:ROWS_MOST])]
+        parts: list[tuple[str, str]] = [
+            (Name(self.name_of(k)), part._line()) for k, part in enumerate(self.parts[:ROWS_MOST])
+        ]
         more = len(self.parts) - len(parts)
         parts += [("dragons", say("and {count} more", count=more))] * (more > 0)
         return [*parts, *Readable._rows(self)[1:], ("begin", display(self.begin, "s")), ("end", self.end._line())]

@@ -85,9 +85,12 @@ class Given(NamedTuple):
             return self.text
         if isinstance(self.value, type):
             return Clause(phrase("the class {kind}"), kind=Given(None, self.value.__name__))
-        if not _is_plain(self.value):
+        try:
+            text = repr(self.value) if _is_plain(self.value) else ""
+        except (RecursionError, ValueError):  # a list in itself, an integer of too many digits
+            text = ""
+        if not text:
             return with_article(type(self.value))
-        text = repr(self.value)
         return text if len(text) <= GIVEN_MOST else f"{text[:GIVEN_MOST]}..."
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -106,7 +109,7 @@ def _is_plain(value: object) -> bool:
 def with_article(*kinds: type) -> Clause:
     """Classes in a sentence: "a Dance or a Route"."""
     kind, *others = kinds
-    template = phrase("an {kind}") if kind.__name__[0] in "AEIOU" else phrase("a {kind}")
+    template = phrase("an {kind}") if kind.__name__[0] in "AEIOUaeiou" else phrase("a {kind}")
     words = Clause(template, kind=Given(None, kind.__name__))
     return Clause(phrase("{one} or {other}"), one=words, other=with_article(*others)) if others else words
 

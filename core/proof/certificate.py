@@ -289,7 +289,11 @@ def verify(certificate: Certificate, *, dance: Dance | None = None, progress: Pr
 
 def _refuse_another(content: Certificate, dance: Dance) -> None:
     """raises: ProofRefused for a certificate about another dragon, path or head speed"""
-    claim, path = content["claim"], recorded_path(dance.path)
+    claim = content["claim"]
+    try:
+        path = recorded_path(dance.path)
+    except InvalidValue:  # a path that no certificate is about
+        raise ProofRefused.in_words("claim.path", ANOTHER["path"]) from None
     same = {
         "dragon": content["dragon"] == runs(dance.dragon),
         "path": claim.get("path", {name: claim.get(name) for name in path} | {"kind": "spiral"}) == path,

@@ -24,6 +24,8 @@ from core.values import Floats
 # Ways that are measured first, with corners at random places between those on the grid and the edge outside them, and
 # up to this part of a chord along [1]: the best ones are improved.
 SAMPLES, IMPROVED, ALONG = 120, 2, 0.5
+# What a way may lack before it is improved: more is never gained [m].
+HOPELESS = 0.35
 # Room is summed up over benches as if those this much further from an edge counted 1 / e of the nearest [m], coarsely
 # and then finely.
 SOFT = (0.03, 0.01)
@@ -31,6 +33,8 @@ SOFT = (0.03, 0.01)
 TRIES = 40
 # First step of a corner [m] and of the logarithm of the radius [1]; accuracy of both, and of the room [m].
 MOVE, GROW, WIDTH, ROOM = 0.3, 0.3, 1e-3, 1e-4
+# Largest logarithm of a radius [1].
+LOGARITHM_MOST = 10.0
 # Most of a stretch that one bend may take [1]; least angle that is a bend, and the largest one [rad]; shortest stretch
 # between two bends [m]; what a way lacks that cannot be laid out [m].
 CUT_MOST, BEND_LEAST, BEND_MOST, SHORTEST, NO_WAY = 0.49, 1e-6, 2.8, 1e-3, 10.0
@@ -60,8 +64,10 @@ def bent_ways(
         least = float(room.min())
         return soft * math.log(float(np.exp((least - room) / soft).sum())) - least
 
-    sampled = _sampled(ends, line, outwards, needs)
-    for numbers in sorted(sampled, key=lambda one: lack(one, SOFT[0]))[:IMPROVED]:
+    sampled = [(lack(numbers, SOFT[0]), k, numbers) for k, numbers in enumerate(_sampled(ends, line, outwards, needs))]
+    for least, _, numbers in sorted(sampled, key=lambda one: one[:2])[:IMPROVED]:
+        if least > HOPELESS + needs.free:
+            return
         for soft in SOFT:
             simplex = np.vstack([numbers, numbers + np.diag([MOVE] * (numbers.size - 1) + [GROW])])
             options = {"initial_simplex": simplex, "maxfev": TRIES * numbers.size, "xatol": WIDTH, "fatol": ROOM}
@@ -102,7 +108,7 @@ def _steps(begin: Pose, end: Pose, numbers: Floats) -> list[Step] | None:
     """The steps of the way with these numbers; None if it has none. A bend is tighter than the radius where a stretch
     is too short for it."""
     first, last = float(numbers[0]), float(numbers[1])
-    if min(first, last) < SHORTEST:
+    if min(first, last) < SHORTEST or abs(float(numbers[-1])) > LOGARITHM_MOST:
         return None
     corners = [moved(begin, (first, 0.0))[:2], *numbers[2:-1].reshape(-1, 2).tolist(), moved(end, (-last, 0.0))[:2]]
     ways = [(q[0] - p[0], q[1] - p[1]) for p, q in pairwise(corners)]

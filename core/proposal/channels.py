@@ -90,15 +90,15 @@ class ChannelLegFinder(LegFinder):
     def _bent_way(self, begin: Pose, end: Pose) -> list[Step] | None:
         """A bent way from gate to gate, looked for once for both directions; None if none has room."""
         there, back = (begin[:2], end[:2]), (end[:2], begin[:2])
-        if there not in self._bent:
+        if there not in self.bent:
             line = self._line(*there, self.needs.straight_side + self.needs.free)
             found = None
             if line is not None and len(line) <= CORNERS_MOST + 2:
                 ways = bent_ways((begin, end), line, self._outwards(line), self.needs, self.rooms)
                 found = next((steps for steps in ways if self.free(begin, steps, self.needs.tight)), None)
-            self._bent[there] = found
-            self._bent[back] = None if found is None else backwards(found)
-        return self._bent[there]
+            self.bent[there] = found
+            self.bent[back] = None if found is None else backwards(found)
+        return self.bent[there]
 
     def _outwards(self, line: Floats) -> Floats:
         """From each inner corner of a line to the edge outside its bend (N, 2), a chord at most [m]."""
@@ -116,7 +116,8 @@ class ChannelLegFinder(LegFinder):
         return {}
 
     @cached_property
-    def _bent(self) -> dict[tuple[Point, Point], list[Step] | None]:
+    def bent(self) -> dict[tuple[Point, Point], list[Step] | None]:
+        """The bent ways that were looked for, by the places of their ends."""
         return {}
 
     @cached_property

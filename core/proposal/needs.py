@@ -106,6 +106,11 @@ class Needs:
         return float(sizes.max()) + 2.0 * (self.margin + self.stray)
 
     @property
+    def takes(self) -> tuple[float, ...]:
+        """What a single bench takes: chord, overhang, half width, margin with stray [m]."""
+        return (self.chord, self.overhang, self.straight_side, self.free)
+
+    @property
     def turning_width(self) -> float:
         """Diameter of the circle in which the longest bench turns on the tightest bend that is tried, margin and stray
         included [m]. A wish: a bend that is 1.1 times as tight can be danced."""

@@ -154,7 +154,12 @@ class Search:
     def of(self, venue: Venue, dragon: Dragon, wish: Wish) -> Search:
         """A search for another dragon or wish between the same gates, as close as this one. venue: without streets"""
         other = search_in(venue, dragon, self.gates, wish, self.budget, self.spent)
-        return (other.close_look() or other) if self.closely else other
+        other = (other.close_look() or other) if self.closely else other
+        ways, others = self.ways, other.ways
+        alike = self.needs.takes == other.needs.takes
+        if alike and isinstance(ways, ChannelLegFinder) and isinstance(others, ChannelLegFinder):
+            others.bent = ways.bent
+        return other
 
     def value(self, rating: PathRating) -> float:
         """Value of a rating for the objective; a dance without room for the stray is worth less than any with it."""
