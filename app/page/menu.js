@@ -22,8 +22,14 @@ export class Menu {
     this.editor = editor;
     this.box = make("div", { id: "menu", popover: "manual", role: "menu" });
     this.box.addEventListener("keydown", (event) => this.#move(event));
-    // The finger that opened it is lifted outside of it, which would end one that the browser ends by itself.
-    addEventListener("pointerdown", ({ target }) => target instanceof Node && !this.box.contains(target) && this.box.hidePopover(), { capture: true });
+    // The finger that opened it is lifted outside of it, which would end one that the browser ends by itself. A press
+    // on the picture that ends it does nothing else.
+    const close = (event) => {
+      if (!(event.target instanceof Node) || this.box.contains(event.target) || !this.box.matches(":popover-open")) return;
+      this.box.hidePopover();
+      if (stage.contains(event.target)) event.stopImmediatePropagation();
+    };
+    addEventListener("pointerdown", close, { capture: true });
     stage.parentElement.append(this.box);
     stage.addEventListener("contextmenu", (event) => {
       if (!editor.canEdit) return;
