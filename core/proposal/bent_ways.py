@@ -24,7 +24,7 @@ from core.values import Floats
 # Ways that are measured first, with corners at random places between those on the grid and the edge outside them, and
 # up to this part of a chord along [1]: the best ones are improved.
 SAMPLES, IMPROVED, ALONG = 120, 2, 0.5
-# What a way may lack before it is improved: more is never gained [m].
+# What a way may lack before it is improved [m]: more is hardly ever gained.
 HOPELESS = 0.35
 # Room is summed up over benches as if those this much further from an edge counted 1 / e of the nearest [m], coarsely
 # and then finely.
@@ -46,12 +46,14 @@ def bent_ways(
     outwards: Floats,
     needs: Needs,
     rooms: Callable[[Pose, Sequence[Step]], Floats],
+    measured: int,
 ) -> Iterator[list[Step]]:
     """The steps of bent ways between two poses, each with the most room that was found from another beginning.
 
     line: corners of a way on the grid between both (N, 2) [m]
     outwards: from each of its N - 2 inner corners to the edge outside its bend (N - 2, 2) [m]
     rooms: room of benches all along steps from a pose [m], see core/proposal/channels.py
+    measured: most ways of which they are measured [1]
     """
     from scipy.optimize import minimize  # type: ignore[import-untyped]
 
@@ -64,13 +66,21 @@ def bent_ways(
         least = float(room.min())
         return soft * math.log(float(np.exp((least - room) / soft).sum())) - least
 
-    sampled = [(lack(numbers, SOFT[0]), k, numbers) for k, numbers in enumerate(_sampled(ends, line, outwards, needs))]
+    count = min(SAMPLES, measured // 2)
+    every = _sampled(ends, line, outwards, needs, count)
+    sampled = [(lack(numbers, SOFT[0]), k, numbers) for k, numbers in enumerate(every)]
+    most = (measured - count) // (IMPROVED * len(SOFT))
     for least, _, numbers in sorted(sampled, key=lambda one: one[:2])[:IMPROVED]:
         if least > HOPELESS + needs.free:
             return
         for soft in SOFT:
             simplex = np.vstack([numbers, numbers + np.diag([MOVE] * (numbers.size - 1) + [GROW])])
-            options = {"initial_simplex": simplex, "maxfev": TRIES * numbers.size, "xatol": WIDTH, "fatol": ROOM}
+            options = {
+                "initial_simplex": simplex,
+                "maxfev": min(TRIES * numbers.size, most),
+                "xatol": WIDTH,
+                "fatol": ROOM,
+            }
             numbers = minimize(lack, numbers, (soft,), method="Nelder-Mead", options=options).x
         steps = _steps(*ends, numbers)
         if steps is not None and long_enough(steps):
@@ -82,7 +92,7 @@ def backwards(steps: Sequence[Step]) -> list[Step]:
     return [(length, -curvature) for length, curvature in reversed(steps)]
 
 
-def _sampled(ends: tuple[Pose, Pose], line: Floats, outwards: Floats, needs: Needs) -> list[Floats]:
+def _sampled(ends: tuple[Pose, Pose], line: Floats, outwards: Floats, needs: Needs, count: int) -> list[Floats]:
     """Numbers of ways at random: straight stretches at both ends [m], the corners between [m], the logarithm of the
     radius."""
     random = np.random.default_rng(0)
@@ -96,7 +106,7 @@ def _sampled(ends: tuple[Pose, Pose], line: Floats, outwards: Floats, needs: Nee
     ]
     radii = np.log([needs.tight, needs.radii[0]])
     ways = []
-    for _ in range(SAMPLES):
+    for _ in range(count):
         parts = random.uniform([0.0, -1.0], [1.0, 1.0], (len(corners), 2))
         placed = corners + parts[:, :1] * outwards + parts[:, 1:] * along
         stretches = most * random.uniform(0.1, 1.0, 2)

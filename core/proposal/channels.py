@@ -33,8 +33,9 @@ LEADS, PARTS = (1.0, 0.5, 1.5, 0.0), 6
 GENTLE = 1.7
 # Places at which a stretch is left or entered, channels, and chains of channels that are looked at for one leg [1].
 PLACES_MOST, CHANNELS_NEAR, CHAINS_MOST = 10, 8, 24
-# Most corners of a way on the grid that becomes a bent way [1].
-CORNERS_MOST = 6
+# Most corners of a way on the grid that becomes a bent way; work of measuring one, besides 1 for each bench and edge,
+# and of all that are measured for one leg [1], see core/kernels/constants.py: 4 s.
+CORNERS_MOST, MEASURED_WORK, BENT_WORK = 6, 7e3, 2e7
 # Work of one leg that is measured bench by bench, for each edge [1], see core/kernels/constants.py.
 BENCH_WORK = 60.0
 
@@ -94,7 +95,14 @@ class ChannelLegFinder(LegFinder):
             line = self._line(*there, self.needs.straight_side + self.needs.free)
             found = None
             if line is not None and len(line) <= CORNERS_MOST + 2:
-                ways = bent_ways((begin, end), line, self._outwards(line), self.needs, self.rooms)
+                length = float(np.hypot(*(line[1:] - line[:-1]).T).sum())
+                work = MEASURED_WORK + len(self.ground.edges) * length / BENCH_STEP
+
+                def rooms(pose: Pose, steps: Sequence[Step]) -> Floats:
+                    self.budget.afford(work)
+                    return self.rooms(pose, steps)
+
+                ways = bent_ways((begin, end), line, self._outwards(line), self.needs, rooms, int(BENT_WORK / work))
                 found = next((steps for steps in ways if self.free(begin, steps, self.needs.tight)), None)
             self.bent[there] = found
             self.bent[back] = None if found is None else backwards(found)

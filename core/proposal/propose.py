@@ -210,7 +210,7 @@ def _otherwise(
     best, reason = _failing(search, venue, figures)
     for proposal in best:
         on_proposal(proposal)
-    if reason is not None and search.gates:
+    if reason is not None and search.gates and Figure.PARADE not in figures:
         # A street has room beyond its gate that the square itself has not.
         reason = _no_turn(search, _circle(search, venue)) or reason
     return best, reason
@@ -223,9 +223,9 @@ def _too_narrow(search: Search, venue: Venue, figures: Sequence[Figure]) -> Reas
         ways = {(min(k, j), max(k, j)) for k, j in _numbers(search.gates)}
         widths = [(_widest_way(search, search.gates[a], search.gates[b]), (a, b)) for a, b in sorted(ways)]
         widest, pair = max(widths)
-        if widest < needs.least_width:
-            return Reason(ReasonKind.WAY, tried, widest, needs.least_width, who=pair)
-    if Figure.PARADE not in figures and 2.0 * search.ground.widest_circle[3] < needs.turning_width:
+        narrow = widest < needs.least_width
+        return Reason(ReasonKind.WAY, tried, widest, needs.least_width, who=pair) if narrow else None
+    if 2.0 * search.ground.widest_circle[3] < needs.turning_width:
         return _no_turn(search, _circle(search, venue))
     return None
 

@@ -5,9 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from core.proposal.bent_ways import backwards
+from core import Dragon
+from core.proposal.bent_ways import backwards, bent_ways
 from core.proposal.footprint import standing
 from core.proposal.legs import points_along
+from core.proposal.needs import Needs
 from core.proposal.walks import moved
 
 CHORD = 2.86
@@ -28,6 +30,21 @@ def test_a_sharper_bend_around_a_corner_takes_as_much_ground_inside_as_a_wide_on
         on = (meets >= 0.0) & (meets <= 1.0)
         nearest.append(float(((front + meets[:, None] * way) @ inside)[on].max()))
     assert nearest == pytest.approx([0.5 * CHORD * math.tan(0.5 * angle)] * 3, abs=1e-3)
+
+
+@pytest.mark.parametrize("measured", [40, 400])
+def test_no_more_ways_are_measured_than_may_be(measured):
+    rooms = []
+
+    def narrow(pose, steps):
+        rooms.append(points_along(pose, steps)[0][:, 1].max())
+        return np.array([0.1 * rooms[-1]])
+
+    ends, line = ((0.0, 0.0, 0.0), (9.0, 9.0, 0.5 * math.pi)), np.array([[0.0, 0.0], [8.0, 1.0], [9.0, 9.0]])
+    outwards = np.array([[1.0, -1.0]])
+    ways = list(bent_ways(ends, line, outwards, Needs(Dragon(3), 0.0, 0.0), narrow, measured))
+    assert len(ways) == 2
+    assert 0.5 * measured < len(rooms) <= measured
 
 
 def test_a_way_back_leads_to_its_beginning():
