@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -173,11 +172,6 @@ def breaches_and_gaps(
     flat, enough = boxes.reshape(-1, boxes.shape[-1]), margin + float(gains(dance.dragon).max()) * strayed
     least = [0.0 if off.any() else max(_least_gap(flat, area), 0.0) for off, area in zip(wrong, edges, strict=True)]
     return found, tuple(AreaGap(area.name, gap, enough) for area, gap in zip(venue.areas, least, strict=True))
-
-
-def breaches(dance: Dance, venue: Venue | None = None, **options: Any) -> tuple[Breach, ...]:
-    """The stretches alone. options: as for breaches_and_gaps()"""
-    return breaches_and_gaps(dance, venue, **options)[0]
 
 
 def _on_wrong_sides(venue: Venue, poses: Floats) -> list[NDArray[np.bool_]]:

@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 from core import Dance, Dragon, Legs, Venue, bench_outlines, check, trajectory
-from core.breaches import BreachKind, breaches
+from core.breaches import BreachKind, breaches_and_gaps
 from core.motion.places import handle_places
 from tests.support.random_squares import box, polygon
 from tests.support.refused import refused
@@ -16,6 +16,10 @@ SQUARE = box("plain", -9, -9, 48, 18)
 TREE = Venue(SQUARE, (box("tree", 14, 0.2, 2, 2),))
 BEND = Dance(Dragon(6), Legs([(0, 0), (12, 0), (18, 6), (12, 12), (0, 12)], [0, 3], radius=4.0))
 ROOM = Venue(box("room", -1, -1, 21.5, 14), (box("stage", 9, 4, 4, 4),))
+
+
+def breaches(*args, **options):
+    return breaches_and_gaps(*args, **options)[0]
 
 
 def kinds(*args, **options):

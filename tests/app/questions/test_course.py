@@ -4,7 +4,7 @@ import pytest
 
 from app.questions.course import CourseRequest
 from core import Dragon
-from core.breaches import breaches
+from core.breaches import breaches_and_gaps
 from tests.support.asking import box, line
 
 BODY = {
@@ -21,7 +21,7 @@ def test_stretches_are_those_of_core_and_come_only_if_asked_for(ask):
     body = BODY | limits | {"breaches": True}
     got = ask("course", body)["breaches"]
     request = CourseRequest.model_validate(body)
-    result = breaches(request.to_dance(3), request.to_place(Dragon(3)).venue, **limits)
+    result, _ = breaches_and_gaps(request.to_dance(3), request.to_place(Dragon(3)).venue, **limits)
     assert [(one["kind"], one["start"]) for one in got] == [(one.kind.value, one.start) for one in result]
     assert {one["kind"] for one in got} == {"speed", "margin", "stray"}
     assert got[0]["points"] == result[0].points.tolist()
