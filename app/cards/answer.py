@@ -12,6 +12,7 @@ from app.wire.fields import Answer, measure
 from core.people import cards as rule
 from core.people import cues as facts
 from core.people.cards import CUES_MOST, Card
+from core.people.fastest import FastestMoment
 
 
 class Neighbour(Answer):
@@ -25,13 +26,10 @@ class Neighbour(Answer):
     name: str
 
 
-class Stand(Answer):
+class Stand(Answer, of=facts.Stand):
     """A bench at one moment.
 
     clock: time of day then, if start_clock or begin_clock is given
-    x: x of its front handle [m]
-    y: y of its front handle [m]
-    heading: direction from its rear to its front handle [rad]
     mark: the nearest chalk mark along the path, by its length from mark 0 [m]
     past_mark: way along the path from that mark to the front handle; below zero: before it [m]
     steps: the same in whole steps
@@ -47,21 +45,12 @@ class Stand(Answer):
     steps: int
 
 
-class Meeting(Answer):
+class Meeting(Answer, of=facts.Meeting):
     """Another bench comes abreast, or nearest without that, with no bench between.
     Abreast: its middle is straight to one side of the own middle.
 
-    time: when the other middle is abreast, to within 1e-9 m along the own bench; or when the benches are nearest [s]
     clock: time of day then, if start_clock or begin_clock is given
-    bench: the other bench; 0 is the head
     name: its name; empty without one
-    side: side on which it is, seen in the direction of the front handle
-    gap: gap of the two benches then, edge to edge; at another moment it may be less; below zero: minus the depth of the
-        overlap [m]
-    ahead: how far the other middle is ahead then, along the own bench; below zero: behind; 0: abreast [m]
-    oncoming: true if it points the other way than the own bench; false if the same way
-    x: x of the own middle then [m]
-    y: y of the own middle then [m]
     """
 
     time: float
@@ -76,14 +65,10 @@ class Meeting(Answer):
     y: float
 
 
-class Fastest(Answer):
+class Fastest(Answer, of=FastestMoment):
     """The moment at which a bench is fastest.
 
-    speed: higher speed of its two handles: reached then, and not exceeded every 0.25 m of head way [m/s]
     speed_ratio: the same over the speed with which the head begins to walk
-    handle: the handle: the number of the bench, or one more for its rear one
-    x: x of that handle then [m]
-    y: y of that handle then [m]
     """
 
     time: float = measure("s")
@@ -94,16 +79,11 @@ class Fastest(Answer):
     y: float
 
 
-class Cue(Answer):
+class Cue(Answer, of=rule.Cue):
     """One cue of a card.
 
-    time: moment of the cue: of several meetings, that of the nearest [s]
     clock: time of day then, if start_clock or begin_clock is given
     count: nearest beat of the music then, such as 17.3 for the third of bar 17; null: none
-    since: beginning of a pause or a turn, or moment of the first of several meetings; else the same as time [s]
-    until: end of a pause or a turn, or moment of the last of several meetings; else the same as time [s]
-    x: x of the bench: of the front handle, in a meeting of the middle, or of the fastest handle [m]
-    y: y of the same point [m]
     angle: angle of a turn, to the left above zero; null in another kind of cue [rad]
     nearest: the meeting, or the nearest of several; null in another kind of cue
     others: all benches met in this cue, in order of time; none in another kind of cue
@@ -124,21 +104,13 @@ class Cue(Answer):
     words: str
 
 
-class CueCard(Answer):
+class CueCard(Answer, of=facts.BenchCues):
     """What the carriers of one bench have to know.
 
-    bench: number of the bench; 0 is the head
     name: its name; empty without one
-    ahead: the bench before it; null for the head
-    behind: the bench behind it; null for the tail
-    start: where it stands when the dance starts
     begin: when it begins to walk
-    direction: direction in which its front handle begins to walk, from the x axis [rad]
     left_out: cues that have no place on the card
     least_left_out: least gap of all meetings left out, each at its moment; null: none is [m]
-    meetings: all meetings within the reach, in order of time
-    fastest: when it is fastest
-    done: when and where it stops for good
     place: where its carriers stand at the start, in one sentence
     beside: who is before and behind it, in words
     """

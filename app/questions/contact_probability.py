@@ -59,14 +59,11 @@ class ContactProbabilityRequest(Wobbling, SpanOrCircle, DanceFields, strict=True
     """Probability of a contact when people wobble, in any dance."""
 
 
-class ContactProbability(Answer):
+class ContactProbability(Answer, of=core.ContactProbability):
     """Probability that two benches that share no handle touch at one of some instants.
 
-    probability: share of the samples in which two benches touch
     limits: limits of the probability of the model, after Clopper and Pearson
     confidence: probability that it lies between these limits
-    contacts: number of samples in which two benches touch
-    samples: number of samples
     time_quantiles: times up to which 5, 50 and 95 % of these contacts have come about; null without a contact [s]
     benches: the pair that is most often the first to touch; null without a contact
     tolerance: Proven: while no hole is further from its place, nothing touches at any time; 0: none is known to be
@@ -75,11 +72,6 @@ class ContactProbability(Answer):
         does; null with a pitch error
     union_bound: proven without samples: the probability of the model is no larger at these instants; null with play or
         a pitch error
-    step: time between two instants; contacts between them are not seen [s]
-    instants: number of instants of each sample
-    start: first instant [s]
-    stop: last instant [s]
-    seed: seed of the random numbers
     method: the model and its evidence, in sentences
     claim: the claim as a kind and values
     """

@@ -11,7 +11,7 @@ from app.wire.dances import PlacedDance, SpanFields
 from app.wire.fields import Answer, Margin, SpeedLimit, Strays, measure
 from app.wire.question import Question, Terms
 from app.wire.readings import bench_words
-from core.breaches import AreaGap as Gap
+from core import breaches as facts
 from core.breaches import BreachKind, breaches_and_gaps
 from core.language import say
 from core.proposal.answer import told_apart
@@ -39,14 +39,11 @@ class TightBend(Answer, of=core.TightBend, leave=()):
     sentence: str
 
 
-class Breach(Answer):
+class Breach(Answer, of=facts.Breach):
     """A stretch of the path on which benches break a limit in a sample of the dance.
 
     kind: speed: a handle is faster than the limit; margin: a bench comes within the margin of another one or of the
         venue's edges, or stands outside; stray: it may, if people stray
-    start: start of the stretch, along the path [m]
-    end: end of the stretch, along the path [m]
-    points: points along it, x and y [m]
     """
 
     kind: BreachKind
@@ -55,7 +52,7 @@ class Breach(Answer):
     points: list[Point]
 
 
-class AreaGap(Answer, of=Gap, leave=()):
+class AreaGap(Answer, of=facts.AreaGap, leave=()):
     """How near the benches come to an area at samples of the dance."""
 
 

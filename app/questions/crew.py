@@ -142,14 +142,11 @@ class CrewSpell(Answer):
     mark: float
 
 
-class Carrier(Answer):
+class Carrier(Answer, of=facts.Carried):
     """One person, and all that they carry.
 
     person: number of the person, from 0 on; spares come last
     label: short name: 17.2 is the second of bench 17 at the start, S3 the third spare
-    time: time carried in all [s]
-    way: way carried in all [m]
-    longest: longest time carried without a break [s]
     spells: in order of time
     """
 
@@ -211,17 +208,11 @@ class Roll(Answer):
     resting: list[str]
 
 
-class Crew(Answer):
+class Crew(Answer, of=facts.Crew):
     """The people of a dance.
 
-    people: number of people, spares among them
-    spares: those among them who carry nothing at the start
-    start: begin of the first spells [s]
-    stop: end of the last spells [s]
     changes: how many times somebody takes over from somebody
     longest: longest time that anybody carries without a break [s]
-    enough: least number of spares with which everybody goes out at every change of their bench; 0: no changes
-    unrelieved: benches that have changes, and of which nobody ever goes out
     places: where the path passes the points, in order of the points
     at: who is where at the time asked about; null: none was asked about
     carriers: all people

@@ -97,12 +97,10 @@ class ProposalsRequest(VenueFields, DragonFields, strict=True):
     count: Whole = Field(3, ge=1, le=COUNT_MOST, description="Number of proposals")
 
 
-class Proposal(Answer):
+class Proposal(Answer, of=core.Proposal):
     """A dance that fits, which passes its check.
 
-    figure: figure of the dance
     dance: the dance with its venue and limits, as a body of POST /check
-    tolerance: largest stray of people that is proven safe, without the margin [m]
     duration: time from its start, with the whole dragon on its path, to its end [s]
     length: way of the head in this time [m]
     area: area of the ground that benches sweep, which reaches at most 0.1 m beyond them [m2]
@@ -112,8 +110,6 @@ class Proposal(Answer):
         between them may hold further apart; null with fewer than three [m]
     clearance_in_place: the same with everybody in place [m]
     highest_speed: highest speed of any handle [m/s]
-    near: what the benches come nearest to
-    gates: numbers of the gates by which it enters and leaves; none without gates
     summary: the proposal in one sentence
     cards: what to say of it beside the others, in every language
     """
@@ -141,16 +137,8 @@ class Proposal(Answer):
         return cls.from_result(result, dance=body, **own)
 
 
-class Lack(Answer):
-    """The numbers of a reason: m2 for area, m for width, way, stray, s for duration, benches for benches and fails.
-
-    have: what there is; for fails the benches of the dance that comes nearest, which is one if no dance of the whole
-        dragon was worth a check
-    need: what it takes; for fails the benches of the dragon
-    figure: the figure that comes nearest; null for area, width and way
-    who: for width the bench that needs it, for way the numbers of both gates
-    failure: for fails the first failure of the dance that comes nearest; else null
-    """
+class Lack(Answer, of=core.Reason):
+    """The numbers of a reason: m2 for area, m for width, way, stray, s for duration, benches for benches and fails."""
 
     have: float | None
     need: float | None

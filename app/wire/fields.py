@@ -305,7 +305,7 @@ class Answer(BaseModel):
     def __pydantic_init_subclass__(cls, of: type | None = None, leave: Any = None, **options: Any) -> None:
         super().__pydantic_init_subclass__(**options)
         for name, field in cls.model_fields.items():
-            if field.description is None and (known := described_field(name, of or cls) or described_field(name, cls)):
+            if field.description is None and (known := described_field(name, cls) or described_field(name, of or cls)):
                 field.description, field.json_schema_extra = known.description, known.json_schema_extra
 
     def to_json(self) -> bytes:
