@@ -222,7 +222,10 @@ def _judged(table: SheetTable, workbook: Workbook, dance: Dance, decimals_beside
     notes = [*table.notes]
     is_on_path = (times >= EARLIEST) & (times <= dance.end.time)
     motion = of_dance(dance)(np.where(is_on_path, times, 0.0))[..., list(COMPONENTS[table.kind])]
-    values = table.values * _scale(table, motion, notes)
+    # result2 has places and speeds in one table.
+    parts = (slice(0, 2), slice(2, 3)) if table.kind is TableKind.CONTACT else (slice(None),)
+    scaled = [table.values[..., one] * _scale(table.values[..., one], motion[..., one], notes) for one in parts]
+    values = np.concatenate(scaled, axis=-1)
     is_vague = 0 < decimals_beside < DECIMALS_OF_CONTEST and table.shown is None and _is_one_number(values)
     has_fewer = is_vague and decimals_beside > DECIMALS[-1]
     if is_vague:
@@ -329,18 +332,19 @@ def _is_one_number(values: Floats) -> bool:
     return bool(known.size and np.ptp(known) == 0.0 and known[0] % 1.0 == 0.0)
 
 
-def _scale(table: SheetTable, motion: Floats, notes: list[Note]) -> float:
+def _scale(values: Floats, motion: Floats, notes: list[Note]) -> float:
     """Factor from the numbers to metres; numbers in a steady ratio to the right ones are in centimetres or millimetres.
 
     Angles of some hundred radians or degrees are as large as centimetres, but not spread alike.
     """
-    sizes = np.abs(table.values[np.isfinite(table.values) & (table.values != 0.0)])
+    sizes = np.abs(values[np.isfinite(values) & (values != 0.0)])
     if not sizes.size:
         return 1.0
     ratios = np.quantile(sizes, SPREAD) / np.quantile(np.abs(motion), SPREAD)
     for scale, (low, high) in SCALES.items():
         if low <= ratios.min() and ratios.max() <= high and ratios.max() <= STEADY * ratios.min():
-            notes.append(note("unit", unit="cm" if scale == 1e-2 else "mm"))
+            said = note("unit", unit="cm" if scale == 1e-2 else "mm")
+            notes += [] if said in notes else [said]
             return scale
     return 1.0
 

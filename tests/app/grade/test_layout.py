@@ -101,6 +101,15 @@ def test_numbers_in_smaller_units_are_read_as_such(title, factor):
     assert title == "速度" or "The numbers are in cm, and were converted." in result.sheets[0].notes
 
 
+@pytest.mark.parametrize("factors", [(1000.0, 1000.0, 1.0), (1000.0, 1000.0, 1000.0), (1.0, 1.0, 100.0)])
+def test_places_and_speeds_of_result2_have_units_of_their_own(factors):
+    heads, *rows = students.contact_rows(spiral(students.AT_CONTACT))
+    small = [[row[0], *(factor * value for factor, value in zip(factors, row[1:], strict=True))] for row in rows]
+    [sheet] = grade(by_xlsxwriter({"Sheet1": [heads, *small]}), "result2.xlsx").sheets
+    assert (sheet.verdict, sheet.right) == ("right", sheet.cells)
+    assert sum("were converted" in words for words in sheet.notes) == 1
+
+
 def test_a_handle_too_many_is_left_out_and_one_too_few_is_missing():
     sheets = few()
     for title, lines in (("位置", 2), ("速度", 1)):
