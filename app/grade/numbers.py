@@ -57,6 +57,7 @@ class Graded:
     notes: remarks in words; findings: shortcuts that give it, with the chance of each
     breaks: the limit that it breaks, and what happens there; None if it breaks none
     headline: name of the verdict in words; empty: that of the verdict
+    rounded: it is the right one, to fewer decimals than the contest asks for or to another side
     """
 
     verdict: Rating
@@ -64,6 +65,7 @@ class Graded:
     findings: list[Finding]
     breaks: Note | None = None
     headline: str = ""
+    rounded: bool = False
 
 
 def graded_number(name: str, value: float, half_unit: float) -> Graded:
@@ -82,7 +84,8 @@ def graded_number(name: str, value: float, half_unit: float) -> Graded:
         if excess < 2.0 * half:
             way = "rounded_unsafely" if excess <= HALF * half else "beyond"
             safe = note(f"{name}_{way}", safe=_safe(name, _decimals_of(half)))
-            return Graded(Rating.INFEASIBLE, [few or safe], [], broken(name, value))
+            is_nearest = excess <= HALF * half and not few
+            return Graded(Rating.INFEASIBLE, [few or safe], [], broken(name, value), rounded=is_nearest)
         return replace(_wrong(name, value, half_unit), breaks=broken(name, value))
     grade = _graded(name, value, half_unit)
     return Graded(Rating.INCOMPLETE, [few], []) if few and grade.verdict is not Rating.WRONG else grade
@@ -98,9 +101,10 @@ def _graded(name: str, value: float, half_unit: float) -> Graded:
     if is_nearest or (is_near and is_safe):
         is_whole = decimals >= DECIMALS_OF_CONTEST
         notes = [] if is_nearest else [note(f"{name}_rounded_safely", **words)]
-        return Graded(Rating.RIGHT, notes, [], headline="" if is_whole else "to_digits")
+        return Graded(Rating.RIGHT, notes, [], headline="" if is_whole else "to_digits", rounded=not is_whole)
     if is_near and name not in SAFE_SIDE:
-        return Graded(Rating.ROUNDED, [note("rounded_otherwise", **words)], [], headline="not_to_the_nearest")
+        remark = note("rounded_otherwise", **words)
+        return Graded(Rating.ROUNDED, [remark], [], headline="not_to_the_nearest", rounded=True)
     if name == "turn_length" and value < right:
         kinds = ("possible_turn", TURN_OF_TWO_LEAST), ("possible_turn_of_ratio", WIDER_LENGTH)
         kind = next((kind for kind, least in kinds if value + half_unit >= least), "possible_turn_tighter")

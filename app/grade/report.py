@@ -186,6 +186,7 @@ class TypedAnswer(Answer):
     expected: the right number, in `unit`
     unit: unit of both
     digits: significant digits of the given number, to which it is graded
+    rounded: it is the right number, but to fewer decimals than the contest asks for, or rounded to another side
     notes: remarks for the reader, in words
     diagnosis: the shortcut that gives the number, if its digits tell it from chance; empty if nothing fits
     possible: the shortcut that gives the number, if its digits are too few for a diagnosis
@@ -201,6 +202,7 @@ class TypedAnswer(Answer):
     expected: float
     unit: str
     digits: int
+    rounded: bool
     notes: list[str]
     diagnosis: list[DiagnosisAnswer]
     possible: list[GuessAnswer] = Field(default=[])
@@ -352,6 +354,7 @@ def typed(name: str, text: str) -> TypedAnswer:
         expected=right_answer(name),
         unit=UNITS[name],
         digits=count,
+        rounded=grade.rounded,
         notes=notes,
         diagnosis=_diagnoses([one for one in grade.findings if one.chance <= CERTAIN]),
         possible=_guessed(grade.findings),

@@ -199,14 +199,11 @@ export const TYPED = { pitch: "question3", speed: "question5" };
 /** Columns of the service's table. */
 const [TEAM, FILE, WORKBOOK, VERDICT, POINTS, FINDING, TEAM_POINTS, ALIKE, POINTS_MOST, TEAM_MOST] = [0, 1, 2, 3, 6, 7, 10, 11, 12, 13];
 export const MARKS = { right: "✓", rounded: "✓", incomplete: "!", infeasible: "✕", wrong: "✕", unreadable: "✕" };
-/** Whether a typed number of two digits or more is the right one to its nearest digit, also where it breaks a limit by that. */
-const isNearest = ({ found, expected, digits }) => digits > 1 && Math.abs(found - expected) <= 0.51 * 10 ** (Math.floor(Math.log10(found)) - digits + 1);
-
 /** A row of the table for the service. found: what judge() gives */
 export async function rowOf({ file, team, name, text }, { answer, words = "" }) {
   const [graded, typed] = [answer?.files[0], answer?.answers[0]];
   const sum = (what) => (graded?.sheets ?? []).reduce((all, sheet) => all + sheet[what], 0);
-  const counts = typed ? { cells: 1, right: +(typed.verdict === "right"), rounded: +(typed.verdict !== "right" && isNearest(typed)), missing: 0 } : { cells: sum("cells"), right: sum("right"), rounded: sum("rounded"), missing: sum("missing") };
+  const counts = typed ? { cells: 1, right: +(typed.verdict === "right" && !typed.rounded), rounded: +typed.rounded, missing: 0 } : { cells: sum("cells"), right: sum("right"), rounded: sum("rounded"), missing: sum("missing") };
   const title = text ? (typed?.title ?? text) : (file?.name ?? name);
   const finding = graded?.finding ?? typed?.headline ?? words;
   return { team: plain(team || title, 0, 200), file: plain(title, -200), workbook: typed ? TYPED[name] : (graded?.workbook ?? null), verdict: (graded ?? typed)?.verdict ?? "unreadable", ...counts, finding: [...finding].slice(0, 1_000).join(""), unusual: graded?.unusual ?? [], digest: file ? await digestOf(file) : "" };

@@ -379,3 +379,20 @@ def test_the_shortest_turn_known_with_a_tighter_arc_is_danced_without_contact():
 )
 def test_the_digits_that_were_graded_are_reported(text, digits):
     assert typed("speed", text).digits == digits
+
+
+@pytest.mark.parametrize(
+    "number, is_rounded",
+    [
+        ("pitch 0.450338", False),
+        ("pitch 0.4504", True),
+        ("pitch 0.4503", True),
+        ("speed 1.246266", False),
+        ("speed 1.2463", True),
+        ("collision_time 412.48", True),
+        ("speed 2", False),
+        ("pitch 0.47", False),
+    ],
+)
+def test_a_right_number_of_too_few_decimals_counts_as_rounded_on_either_side_of_its_limit(number, is_rounded):
+    assert typed(*number.split()).rounded is is_rounded
